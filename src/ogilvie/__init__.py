@@ -1,0 +1,83 @@
+"""From a hull to a ship moving in a seaway.
+
+``import ogilvie as og`` gives the public names below. They are loaded when first used, so the import is quick and has no
+side effects. Conventions: x forward, y port, z up; x(t) = Re X exp(+i omega t); SI and radians.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+__version__ = "0.1.0"
+
+_PUBLIC = {
+    "ConventionError": "errors",
+    "ConvergenceError": "errors",
+    "Convolution": "loads.radiation",
+    "DoubleCountingError": "errors",
+    "FormatError": "errors",
+    "InputError": "errors",
+    "LinearDamping": "loads.viscous",
+    "LinearMooring": "loads.mooring",
+    "LinearRestoring": "loads.restoring",
+    "OgilvieError": "errors",
+    "OgilvieWarning": "errors",
+    "PanelMesh": "mesh.panels",
+    "Retardation": "memory.retardation",
+    "RigidBody": "body",
+    "Sea": "waves.sea",
+    "StateSpace": "memory.statespace",
+    "StateSpaceRadiation": "loads.radiation",
+    "Stepper": "sim.stepper",
+    "Vessel": "sim.vessel",
+    "WaveExcitation": "loads.excitation",
+    "bichromatic": "waves.sea",
+    "bretschneider": "waves.spectra",
+    "check": "hydro.checks",
+    "hydro_from_arrays": "hydro.schema",
+    "hydrostatics": "mesh.hydrostatics",
+    "identify": "memory.identify",
+    "irregular": "waves.sea",
+    "jonswap": "waves.spectra",
+    "load_mesh": "mesh.files",
+    "ochi_hubble": "waves.spectra",
+    "pierson_moskowitz": "waves.spectra",
+    "plot": "post.plot:",
+    "rao": "hydro.rao",
+    "read_hydro": "hydro.files",
+    "regular": "waves.sea",
+    "retardation": "memory.retardation",
+    "sea_from_record": "waves.sea",
+    "shapes": "mesh.shapes:",
+    "simulate": "sim.simulate",
+    "solve_bem": "hydro.capytaine",
+    "spreading": "waves.spectra",
+    "stats": "post.stats:",
+    "torsethaugen": "waves.spectra",
+    "units": "units:",
+    "write_mesh": "mesh.files",
+    "write_wamit": "hydro.wamit_write",
+}
+
+__all__ = sorted([*_PUBLIC, "__version__"])
+
+
+def __getattr__(name: str) -> Any:
+    """Load a public name on first use (a trailing ':' in the table marks a module)."""
+    try:
+        where = _PUBLIC[name]
+    except KeyError:
+        raise AttributeError(
+            f"module 'ogilvie' has no attribute {name!r}; public names: {', '.join(sorted(_PUBLIC))}"
+        ) from None
+    module = import_module(f"ogilvie.{where.rstrip(':')}")
+    value = module if where.endswith(":") else getattr(module, name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return __all__
+
+
+if TYPE_CHECKING:
+    from ogilvie.body import RigidBody

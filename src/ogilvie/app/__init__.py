@@ -1,0 +1,1 @@
+"""The application: case files and the command line."""

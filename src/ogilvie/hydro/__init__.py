@@ -1,0 +1,1 @@
+"""Frequency-domain hydrodynamic coefficients: the data set, its readers and writers, the panel solver, the checks."""

@@ -1,0 +1,1 @@
+"""Hulls as panels: geometry, files, clipping, shapes, hydrostatics."""

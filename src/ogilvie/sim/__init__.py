@@ -1,0 +1,1 @@
+"""The vessel in time: equations of motion, integrators, simulation."""
