@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ogilvie.errors import InputError
 from ogilvie.memory.fourier import fourier_integral, legendre_pieces
+from ogilvie.memory.screening import clean_frequencies, describe
 from ogilvie.memory.tail import Tail, fit_tail
 
 if TYPE_CHECKING:
@@ -38,6 +39,10 @@ class Retardation:
         A_inf from Ogilvie's relation, for comparison.
     omega, added_mass, radiation_damping : arrays
         The data that K was made from.
+    mask : (n_w,) bool array
+        Frequencies that were used.
+    A_inf_given : bool
+        False where A_inf was estimated from the rest of the data.
     source : str
     notes : tuple of str
         What the user should know about these functions.
@@ -55,6 +60,8 @@ class Retardation:
     omega: Array | None = None
     added_mass: Array | None = None
     radiation_damping: Array | None = None
+    mask: Array | None = None
+    A_inf_given: bool = True
     source: str = "given"
     notes: tuple[str, ...] = field(default=())
 
@@ -117,6 +124,7 @@ def retardation(
     dt: float | None = None,
     tail: str = "fit",
     interpolation: str = "spline",
+    frequencies: str | ArrayLike = "clean",
 ) -> Retardation:
     """Return the retardation functions of a hydrodynamic data set, with their errors.
 
@@ -133,6 +141,9 @@ def retardation(
         Damping beyond the last frequency; see :func:`ogilvie.memory.tail.fit_tail`.
     interpolation : {"spline", "linear"}
         Damping between the frequencies, integrated exactly either way.
+    frequencies : {"clean", "all"} or (n_w,) bool array
+        ``clean`` leaves out those whose damping matrix is not positive semi-definite (irregular frequencies) and says which;
+        see :mod:`ogilvie.memory.screening`.
 
     Returns
     -------
@@ -163,12 +174,15 @@ def retardation(
     >>> K.K.shape, bool(abs(K.K[10, 0, 0]) < 0.01)  # K(1) = 0
     ((201, 1, 1), True)
     """
-    omega = hydro.omega.values
-    A, B = hydro.added_mass.values, hydro.radiation_damping.values
+    omega_all, A_all, B_all = hydro.omega.values, hydro.added_mass.values, hydro.radiation_damping.values
+    mask = _mask(frequencies, omega_all, B_all)
+    omega, A, B = omega_all[mask], A_all[mask], B_all[mask]
     _check_data(omega, B, duration, dt)
     dofs = tuple(str(d) for d in hydro.influenced_dof.values)
     w0, B0 = np.concatenate([[0.0], omega]), np.concatenate([np.zeros((1,) + B.shape[1:]), B])
     tails, notes = _tails(omega, B, dofs, tail)
+    if frequencies_left_out := describe(omega_all, mask):
+        notes.insert(0, frequencies_left_out)
     dt = dt or _nice_step(2 * np.pi / omega[-1] / 20)
     horizon = np.pi / _energetic_step(omega, B)
     if duration is None:
@@ -197,12 +211,26 @@ def retardation(
         discretisation_error=np.abs(_kernel(w0, B0, tails, t, other) - K).max(axis=0) / scale,
         tail_exponent=np.array([[np.nan if x is None else x.p for x in row] for row in tails]),
         A_inf_ogilvie=A_ogilvie,
-        omega=omega,
-        added_mass=A,
-        radiation_damping=B,
+        omega=omega_all,
+        added_mass=A_all,
+        radiation_damping=B_all,
+        mask=mask,
+        A_inf_given=has_A_inf,
         source=f"damping of {hydro.attrs.get('name', 'vessel')}, {interpolation}, tail {tail}",
         notes=tuple(notes),
     )
+
+
+def _mask(frequencies: str | ArrayLike, omega: Array, B: Array) -> Array:
+    if isinstance(frequencies, str):
+        if frequencies not in ("clean", "all"):
+            raise InputError(f"frequencies: 'clean', 'all' or a mask expected, {frequencies!r} found.")
+        finite = np.all(np.isfinite(B))
+        return clean_frequencies(omega, B) if frequencies == "clean" and finite else np.ones(len(omega), dtype=bool)
+    mask = np.asarray(frequencies)
+    if mask.shape != omega.shape or mask.dtype != bool:
+        raise InputError(f"frequencies: a mask of {len(omega)} booleans expected, {mask.dtype} of shape {mask.shape} found.")
+    return mask
 
 
 def _check_data(omega: Array, B: Array, duration: float | None, dt: float | None) -> None:

@@ -28,6 +28,13 @@ class StateSpace:
         Names of the m degrees of freedom.
     r2 : (m, m) array
         Coefficient of determination of each entry of K (paper A, Eq. 7); NaN where the entry is zero by symmetry.
+    r2_added_mass, r2_damping : (m, m) array
+        The same of A(omega) and B(omega) at the frequencies used.
+    passivity_margin : float
+        Smallest eigenvalue of Re K_hat(i omega) over 4001 frequencies, each dof scaled by its largest damping; 0 for a passive
+        model (reached at zero frequency), negative where the model feeds energy into the vessel.
+    is_passive : bool
+        Certified at all frequencies by the Hamiltonian matrix, to 1e-6 of that scale.
     A_inf : (m, m) array, optional
         Added mass at infinite frequency that goes with the model, SI.
     method : str
@@ -41,6 +48,10 @@ class StateSpace:
     C: Array
     dofs: tuple[str, ...] = ("surge", "sway", "heave", "roll", "pitch", "yaw")
     r2: Array | None = None
+    r2_added_mass: Array | None = None
+    r2_damping: Array | None = None
+    passivity_margin: float | None = None
+    is_passive: bool | None = None
     A_inf: Array | None = None
     method: str = "given"
     notes: tuple[str, ...] = field(default=())
@@ -93,10 +104,14 @@ class StateSpace:
 
     def __str__(self) -> str:
         lines = [f"State-space model of the fluid memory: {self.order} states ({self.method}), slowest pole {self._slowest()}"]
-        if self.r2 is not None:
-            lines.append("R2 of K " + "".join(f"{d:>9}" for d in self.dofs))
-            for d, row in zip(self.dofs, self.r2, strict=True):
-                lines.append(f"{d:8}" + "".join("        -" if np.isnan(v) else f"{v:9.4f}" for v in row))
+        if self.is_passive is not None:
+            verdict = "passive at all frequencies" if self.is_passive else "NOT passive"
+            lines.append(f"{verdict}; smallest scaled eigenvalue of Re K_hat {self.passivity_margin:.2g}")
+        for name, r2 in (("K", self.r2), ("A", self.r2_added_mass), ("B", self.r2_damping)):
+            if r2 is not None:
+                lines.append(f"R2 of {name} " + "".join(f"{d:>9}" for d in self.dofs))
+                for d, row in zip(self.dofs, r2, strict=True):
+                    lines.append(f"{d:8}" + "".join("        -" if np.isnan(v) else f"{v:9.4f}" for v in row))
         return "\n".join(lines + [f"note: {n}" for n in self.notes])
 
     def _slowest(self) -> str:
