@@ -52,7 +52,7 @@ docs: setup
 # Tested versions: names, versions and hashes, no addresses.
 lock: setup
 	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --all-extras --generate-hashes --no-emit-index-url \
-	  --no-annotate --no-header --extra-index-url "" -o constraints.txt pyproject.toml constraints.in
+	  --no-annotate --no-header -o constraints.txt pyproject.toml constraints.in
 
 clean:
 	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache .import_linter_cache docs/_build

@@ -14,7 +14,7 @@ from ogilvie.memory.retardation import Retardation
 
 Array = NDArray[Any]
 
-MOTION_TOLERANCE = 0.0075  # change of the motion under unit forces at which the order is high enough
+MOTION_TOLERANCE = 0.0065  # change of the motion under unit forces at which the order is high enough
 _STUCK = 3  # oscillators without progress after which a coupling is said to fit no causal model
 _ZERO = 1e-3  # of sqrt(spread_ii spread_jj): a coupling below it is zero by symmetry
 
@@ -156,6 +156,7 @@ def _waive(block: _Block, r2: float, names: tuple[str, ...], notes: list[str]) -
             f"contradict each other, no causal passive model fits both."
         )
         block.fit.target.weight[i, j] = block.fit.target.weight[j, i] = 0.2
+        block.fit.reweigh()
     else:
         block.motion_limit *= motion
         notes.append(

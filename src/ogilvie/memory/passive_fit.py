@@ -12,7 +12,7 @@ from ogilvie.memory.oscillators import derivatives, response
 Array = NDArray[Any]
 
 DAMPERS = 3  # r; more gain nothing on any vessel tried, one is too few
-_MOTION_WEIGHT = 8.0
+_MOTION_WEIGHT = 10.0
 _A_INF_TOLERANCE = 0.5  # standard deviations of A(omega) by which a given A_inf may be off at the cost of one residual
 _DAMPING_FLOOR = 0.02  # of critical: a sharper resonance than that hides between the frequencies
 
@@ -50,12 +50,20 @@ class Fit:
     def __init__(self, target: Target, r: int = DAMPERS):
         self.target, self.r, self.m = target, r, target.A.shape[1]
         self.upper = [(i, j) for i in range(self.m) for j in range(i, self.m)]
-        self.rows = [(i, j) for i, j in self.upper if target.weight[i, j] > 0.0]
         self.n_inf = len(self.upper)
         self.sA, self.sB = _spread(target.A), _spread(target.B)
         self.data = target.B + 1j * target.omega[:, None, None] * (target.A - target.A_inf)
-        self.share = 1 / np.sqrt(len(target.omega))
+        self.motion = self._motion_matrix()
+        self.reweigh()
         self.bounds = np.log(0.1 * target.omega[0]), np.log(6.0 * target.omega[-1])
+
+    def reweigh(self) -> None:
+        """Take over the weights of the couplings from the target."""
+        used = [(i, j) for i, j in self.upper if self.target.weight[i, j] > 0.0]
+        self.i, self.j = np.array([i for i, _ in used]), np.array([j for _, j in used])
+        f = self.target.weight[self.i, self.j] / np.sqrt(len(self.target.omega))
+        self.fB = f / self.sB[self.i, self.j]
+        self.fA = f / self.sA[self.i, self.j] / self.target.omega[:, None]
 
     def correction(self, p: Array) -> Array:
         """Change of A_inf (m, m) in the parameters."""
@@ -90,28 +98,26 @@ class Fit:
         return self._weigh(E, p), self._weigh_jacobian(dE, p)
 
     def _weigh(self, E: Array, p: Array) -> Array:
-        parts = []
-        for i, j in self.rows:
-            f = self.share * self.target.weight[i, j]
-            parts += [f * E[:, i, j].real / self.sB[i, j], f * E[:, i, j].imag / self.target.omega / self.sA[i, j]]
-        if self.target.compliance is not None:
-            R = self._motion @ E
+        e = E[:, self.i, self.j]
+        parts = [(e.real * self.fB).ravel(), (e.imag * self.fA).ravel()]
+        if self.motion is not None:
+            R = self.motion @ E
             parts += [R.real.ravel(), R.imag.ravel()]
         return np.concatenate(parts + self._penalties(p))
 
     def _weigh_jacobian(self, dE: Array, p: Array) -> Array:
-        parts = []
-        for i, j in self.rows:
-            f = self.share * self.target.weight[i, j]
-            parts += [f * dE[:, i, j].real / self.sB[i, j], f * dE[:, i, j].imag / (self.target.omega * self.sA[i, j])[:, None]]
-        if self.target.compliance is not None:
-            R = (self._motion @ dE.reshape(len(dE), self.m, -1)).reshape(-1, dE.shape[-1])
+        e = dE[:, self.i, self.j]
+        n_p = dE.shape[-1]
+        parts = [(e.real * self.fB[:, None]).reshape(-1, n_p), (e.imag * self.fA[..., None]).reshape(-1, n_p)]
+        if self.motion is not None:
+            R = (self.motion @ dE.reshape(len(dE), self.m, -1)).reshape(-1, n_p)
             parts += [R.real, R.imag]
         return np.concatenate(parts + self._penalty_slopes(p))
 
-    @property
-    def _motion(self) -> Array:
-        assert self.target.compliance is not None
+    def _motion_matrix(self) -> Array | None:
+        """Turn an error of K_hat into the weighted relative change of the motion."""
+        if self.target.compliance is None:
+            return None
         omega = self.target.omega
         weight = _MOTION_WEIGHT * np.sqrt(np.gradient(omega) / (omega[-1] - omega[0]))
         return 1j * (weight * omega)[:, None, None] * self.target.compliance
@@ -127,11 +133,11 @@ class Fit:
 
     def motion_change(self, p: Array) -> Array:
         """Relative change (m,) of the motion of each dof under unit forces, root mean square over the frequencies."""
-        if self.target.compliance is None:
+        if self.motion is None or self.target.compliance is None:
             return np.zeros(self.m)
         E = self.model(p) + 1j * self.target.omega[:, None, None] * self.correction(p) - self.data
         X = self.target.compliance
-        change = (np.abs(self._motion @ E @ X) ** 2).sum(axis=2) / (np.abs(X) ** 2).sum(axis=2)
+        change = (np.abs(self.motion @ E @ X) ** 2).sum(axis=2) / (np.abs(X) ** 2).sum(axis=2)
         return np.sqrt(change.sum(axis=0)) / _MOTION_WEIGHT
 
     def _penalties(self, p: Array) -> list[Array]:
@@ -186,7 +192,7 @@ def candidates(fit: Fit, p: Array, keep: int) -> list[Array]:
     return [trial for _, trial in sorted(found, key=lambda c: c[0])[:keep]]
 
 
-def grow(fit: Fit, p: Array, *, keep: int = 6, short: int = 8, long: int = 25) -> tuple[Array, float]:
+def grow(fit: Fit, p: Array, *, keep: int = 10, short: int = 8, long: int = 60) -> tuple[Array, float]:
     """Return parameters and cost with one more oscillator: the best of a few starts after a short descent, then a long one."""
     starts = [optimise(fit, trial, short) for trial in candidates(fit, p, keep)]
     return optimise(fit, min(starts, key=lambda s: s[1])[0], long)
