@@ -12,6 +12,8 @@ from ogilvie.mesh.topology import canonical, compact, merge_vertices
 
 Array = NDArray[np.float64]
 
+#: Greatest distance of a quadrilateral's corners from their mean plane, over the root of its area.
+WARP = 0.09
 #: Vertices closer than this part of the largest extent are one.
 WELD = 1e-9
 
@@ -39,13 +41,13 @@ def spacing(n: int, *, grading: float = 0.5, fine: Literal["end", "both"] = "end
 
 
 def graded(s: Array, grading: float, *, fine: Literal["end", "both"] = "end") -> Array:
-    """Return the monotone map of [0, 1] on itself behind :func:`spacing`: (1 - g) s + g sin(pi s / 2), or with (1 - cos(pi s)) / 2."""
+    """Return the map of [0, 1] on itself behind :func:`spacing`: (1 - g) s + g sin(pi s / 2), or with (1 - cos(pi s)) / 2."""
     curve = np.sin(0.5 * np.pi * s) if fine == "end" else 0.5 * (1.0 - np.cos(np.pi * s))
     return (1.0 - grading) * s + grading * curve
 
 
 def quarter_disc(n: int, m: int, *, core: float = 0.55, grading: float = 0.5) -> list[Array]:
-    """Return the quarter x, y >= 0 of the unit disc as three grids (.., .., 2) of quadrilaterals: a square core and two sectors.
+    """Return the quarter x, y >= 0 of the unit disc as three grids (.., .., 2): a square core and two sectors.
 
     Parameters
     ----------
@@ -68,7 +70,7 @@ def quarter_disc(n: int, m: int, *, core: float = 0.55, grading: float = 0.5) ->
 
 
 def coons(bottom: Array, top: Array, left: Array, right: Array) -> Array:
-    """Return the grid (n, m, 3) spanned by four border curves: bottom, top (n, 3) and left, right (m, 3) (transfinite interpolation)."""
+    """Return the grid (n, m, 3) between curves bottom, top (n, 3) and left, right (m, 3), by transfinite interpolation."""
     u = np.linspace(0.0, 1.0, len(bottom))[:, None, None]
     v = np.linspace(0.0, 1.0, len(left))[None, :, None]
     ruled = (1 - v) * bottom[:, None] + v * top[:, None] + (1 - u) * left[None] + u * right[None]
@@ -99,7 +101,8 @@ def panel_mesh(
 
     Notes
     -----
-    A panel with two equal corners becomes a triangle, one without area is left out.
+    A panel with two equal corners becomes a triangle, one without area is left out, and one whose corners are far off their
+    mean plane (by over 0.09 of the root of its area) becomes two triangles.
     """
     vertices = np.concatenate([np.asarray(g, dtype=float).reshape(-1, 3) for g in grids])
     faces, first = [], 0
@@ -113,7 +116,7 @@ def panel_mesh(
         vertices[np.abs(vertices[:, axis]) <= tol, axis] = 0.0
     vertices[np.abs(vertices[:, 2]) <= tol, 2] = 0.0
     vertices, merged = merge_vertices(vertices, np.concatenate(faces), tolerance=tol)
-    merged = _hinged(vertices, _proper(vertices, canonical(merged), symmetry), symmetry)
+    merged = _unwarped(vertices, _hinged(vertices, _proper(vertices, canonical(merged), symmetry), symmetry))
     return PanelMesh(*compact(vertices, merged), symmetry=symmetry, name=name)
 
 
@@ -127,10 +130,21 @@ def _proper(vertices: Array, faces: NDArray[np.int64], symmetry: str) -> NDArray
 
 
 def _hinged(vertices: Array, faces: NDArray[np.int64], symmetry: str) -> NDArray[np.int64]:
-    """Return the faces, those with three corners in a plane of symmetry starting at the fourth: no half of them lies in the plane."""
+    """Return the faces; those with three corners in a plane of symmetry start at the fourth: no half lies in the plane."""
     faces = faces.copy()
     for axis in {"none": (), "xz": (1,), "xz+yz": (0, 1)}[symmetry]:
         off = vertices[faces][..., axis] != 0.0
         rows = np.flatnonzero((off.sum(axis=1) == 1) & (faces[:, 2] != faces[:, 3]))
         faces[rows] = faces[rows[:, None], (off[rows].argmax(axis=1)[:, None] + np.arange(4)) % 4]
     return faces
+
+
+def _unwarped(vertices: Array, faces: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return the faces, strongly warped quadrilaterals as two triangles along their first diagonal."""
+    p = vertices[faces]
+    S = 0.5 * np.cross(p[:, 2] - p[:, 0], p[:, 3] - p[:, 1])
+    area = np.maximum(np.linalg.norm(S, axis=1), 1e-300)
+    off = np.abs(((p - p.mean(axis=1, keepdims=True)) * (S / area[:, None])[:, None]).sum(axis=2)).max(axis=1)
+    warped = (off > WARP * np.sqrt(area)) & (faces[:, 2] != faces[:, 3])
+    halves = faces[warped][:, [[0, 1, 2, 2], [0, 2, 3, 3]]].reshape(-1, 4)
+    return np.concatenate([faces[~warped], halves])
