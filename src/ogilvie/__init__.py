@@ -34,6 +34,7 @@ _PUBLIC = {
     "bretschneider": "waves.spectra",
     "check": "hydro.checks",
     "check_mesh": "mesh.inspect",
+    "decay": "post.decay",
     "equilibrium": "mesh.equilibrium",
     "heal": "mesh.inspect",
     "hydro_from_arrays": "hydro.schema",
