@@ -25,6 +25,7 @@ _PUBLIC = {
     "Retardation": "memory.retardation",
     "RigidBody": "body",
     "Sea": "waves.sea",
+    "State": "sim.state",
     "StateSpace": "memory.statespace",
     "StateSpaceRadiation": "loads.radiation",
     "Stepper": "sim.stepper",

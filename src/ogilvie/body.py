@@ -1,16 +1,19 @@
 """The rigid body: mass, centre of gravity, inertia."""
 
+import warnings
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ogilvie.errors import InputError
+from ogilvie.errors import InputError, OgilvieWarning
 from ogilvie.frames import skew
 from ogilvie.units import SEA_WATER
 
 Array = NDArray[np.float64]
+
+_ROUNDING = 0.02  # violation of the triangle inequality that rounded radii of gyration of real ships show: a warning
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +33,7 @@ class RigidBody:
     ------
     InputError
         Mass not positive; inertia not symmetric, not positive definite, or principal moments that violate the triangle
-        inequality I1 + I2 >= I3 (no distribution of mass has such moments).
+        inequality I1 + I2 >= I3 (no distribution of mass has such moments) by more than 2 %; a smaller violation warns.
 
     Examples
     --------
@@ -126,8 +129,12 @@ def _check_inertia(inertia: Array) -> None:
     I = np.linalg.eigvalsh(inertia)  # ascending
     if I[0] <= 0.0:
         raise InputError(f"inertia: positive principal moments expected, {I.tolist()} found.")
-    if I[0] + I[1] < I[2] * (1 - 1e-9):
-        raise InputError(
-            f"inertia: principal moments {I[0]:.6g}, {I[1]:.6g}, {I[2]:.6g} kg m2 violate the triangle inequality "
-            f"I1 + I2 >= I3; no mass distribution has them. Check radii of gyration and reference point."
+    excess = I[2] / (I[0] + I[1]) - 1.0
+    if excess > 1e-9:
+        found = (
+            f"inertia: principal moments {I[0]:.6g}, {I[1]:.6g}, {I[2]:.6g} kg m2 violate the triangle inequality I1 + I2 >= I3 "
+            f"by {excess:.2%}; no mass distribution has them. Check radii of gyration and reference point."
         )
+        if excess > _ROUNDING:
+            raise InputError(found)
+        warnings.warn(found, OgilvieWarning, stacklevel=4)

@@ -45,6 +45,11 @@ def test_impossible_bodies_are_refused(mass, cog, inertia, words):
         og.RigidBody(mass, cog, inertia)
 
 
+def test_rounded_inertia_of_a_real_ship_only_warns():
+    with pytest.warns(og.OgilvieWarning, match="triangle inequality"):
+        og.RigidBody(1.0, [0, 0, 0], [1.0, 9.0, 10.1])
+
+
 def test_from_hull_needs_one_height():
     with pytest.raises(og.InputError, match="exactly one of"):
         og.RigidBody.from_hull(og.shapes.box(10, 4, 2), gyradii=(1, 2, 2))

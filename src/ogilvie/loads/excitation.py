@@ -1,0 +1,158 @@
+"""First-order wave excitation: Froude-Krylov and diffraction force of each wave component."""
+
+import warnings
+from dataclasses import dataclass, field
+from functools import partial
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike
+
+from ogilvie.errors import InputError, OgilvieWarning
+from ogilvie.hydro.schema import DOFS
+from ogilvie.loads.base import DIFFRACTION, FROUDE_KRYLOV, ComplexArray, Surroundings, Terms, embed
+from ogilvie.loads.interpolation import Headings, evaluate, symmetric_headings
+from ogilvie.waves.field import Sea
+
+#: Largest share of the sea's variance that may lie outside the frequencies of the coefficients (left out with a warning).
+NEGLIGIBLE = 1e-3
+
+
+@dataclass(frozen=True, eq=False, init=False)
+class WaveExcitation:
+    """Force of the waves on the body held in its mean position, linear in the wave amplitude.
+
+    Parameters
+    ----------
+    hydro : xarray.Dataset
+        Hydrodynamic data set with ``excitation_force``.
+
+    Raises
+    ------
+    InputError
+        The data set holds no wave forces.
+
+    Notes
+    -----
+    F(t) = Re sum_j X(w_j, b_j) a_j exp(i (w_e t + phase)_j) with b_j the direction relative to the bow and the signed encounter
+    frequency w_e = w - k U cos(b). X is interpolated as a complex number: cubic splines in frequency and in heading, periodic
+    in heading where the data go all around. Data of a port-starboard symmetric hull that cover one side serve both.
+
+    References
+    ----------
+    Paper C (Vu), Eq. (29).
+
+    Examples
+    --------
+    >>> from ogilvie.hydro.schema import hydro_from_arrays
+    >>> w, Z = np.linspace(0.2, 2.0, 10), np.zeros((10, 6, 6))
+    >>> X = np.ones((10, 1, 6)) * w[:, None, None] ** 2
+    >>> hydro = hydro_from_arrays(omega=w, added_mass=Z, radiation_damping=Z, wave_direction=[np.pi], excitation_force=X)
+    >>> WaveExcitation(hydro).force([0.5], [np.pi])[0, 2].round(6)
+    np.complex128(0.25+0j)
+    """
+
+    hydro: xr.Dataset
+    _headings: Headings = field(repr=False)
+    _table: ComplexArray = field(repr=False)
+    name: str = "excitation"
+
+    def __init__(self, hydro: xr.Dataset) -> None:
+        if not isinstance(hydro, xr.Dataset):
+            raise InputError(
+                f"WaveExcitation: a hydrodynamic data set (xarray.Dataset) expected, {type(hydro).__name__} found."
+            )
+        if "excitation_force" not in hydro:
+            raise InputError(
+                "WaveExcitation: excitation_force expected in the data set, not found. Read or solve for wave forces."
+            )
+        dofs = tuple(str(d) for d in hydro.influenced_dof.values)
+        table = embed(hydro.excitation_force.values, dofs, (2,)).astype(complex)  # (n_w, n_b, 6)
+        headings, table = symmetric_headings(hydro, table)
+        object.__setattr__(self, "hydro", hydro)
+        object.__setattr__(self, "name", "excitation")
+        object.__setattr__(self, "_headings", headings)
+        object.__setattr__(self, "_table", table)
+
+    @property
+    def covers(self) -> frozenset[str]:
+        """Effects that this load accounts for."""
+        return frozenset({FROUDE_KRYLOV, DIFFRACTION})
+
+    def force(self, omega: ArrayLike, direction: ArrayLike) -> ComplexArray:
+        """Return the complex force (n, 6) per metre of wave amplitude.
+
+        Parameters
+        ----------
+        omega : (n,) array
+            Frequency of the incident waves, rad/s, within the data.
+        direction : (n,) array
+            Direction that the waves travel to, relative to the bow, rad.
+
+        Raises
+        ------
+        InputError
+            Frequency or heading outside the data.
+        """
+        w, b = np.broadcast_arrays(np.atleast_1d(np.asarray(omega, dtype=float)), np.asarray(direction, dtype=float))
+        lo, hi = self._range
+        if len(w) and (w.min() < lo * (1 - 1e-9) or w.max() > hi * (1 + 1e-9)):
+            raise InputError(
+                f"WaveExcitation: frequencies within {lo:.4g}..{hi:.4g} rad/s expected, {w.min():.4g}..{w.max():.4g} found."
+            )
+        return evaluate(self.hydro.omega.values, self._headings, self._table, np.clip(w, lo, hi), b)
+
+    def bind(self, surroundings: Surroundings) -> Terms:
+        """Return the arrays for the time loop."""
+        at, own = surroundings.speed, float(self.hydro.attrs.get("speed", 0.0))
+        if abs(at - own) > 1e-6 * max(1.0, abs(at)):
+            warnings.warn(
+                f"WaveExcitation: the coefficients hold for {own:.4g} m/s, the vessel sails at {at:.4g} m/s; "
+                "their dependence on speed is left out. Give coefficients for the vessel's speed.",
+                OgilvieWarning,
+                stacklevel=2,
+            )
+        return Terms(wave=partial(_force_in_sea, self))
+
+    @property
+    def _range(self) -> tuple[float, float]:
+        w = self.hydro.omega.values
+        return float(w[0]), float(w[-1])
+
+
+def _force_in_sea(load: WaveExcitation, sea: Sea, heading: float) -> ComplexArray:
+    """Return the force of all components; those outside the data must hold a negligible share of the variance."""
+    _compare_depth(load, sea)
+    lo, hi = load._range
+    inside = (sea.omega >= lo * (1 - 1e-9)) & (sea.omega <= hi * (1 + 1e-9))
+    if not inside.all():
+        variance = np.atleast_2d(sea.amplitude**2).mean(axis=0)
+        _report_lost(float(variance[~inside].sum() / variance.sum()) if variance.any() else 0.0, sea.omega, lo, hi)
+    force = np.zeros((len(sea.omega), len(DOFS)), dtype=complex)
+    force[inside] = load.force(sea.omega[inside], sea.direction[inside] - heading)
+    return force
+
+
+def _compare_depth(load: WaveExcitation, sea: Sea) -> None:
+    """Warn where coefficients and sea differ in depth and the waves feel it (k h < pi)."""
+    own = float(load.hydro.attrs.get("water_depth", np.inf))
+    shallow = min(own, sea.depth)
+    if own != sea.depth and abs(own - sea.depth) > 0.01 * shallow and sea.wavenumber.min() * shallow < np.pi:
+        warnings.warn(
+            f"WaveExcitation: the coefficients hold for a water depth of {own:g} m, the sea for {sea.depth:g} m. "
+            "Make both for one depth.",
+            OgilvieWarning,
+            stacklevel=5,
+        )
+
+
+def _report_lost(share: float, omega: ComplexArray, lo: float, hi: float) -> None:
+    """Refuse a sea that the data do not cover, warn of one that they cover but for a negligible rest."""
+    found = (
+        f"WaveExcitation: the coefficients cover {lo:.4g}..{hi:.4g} rad/s, the sea has components from {omega.min():.4g} to "
+        f"{omega.max():.4g} rad/s; {100 * share:.3g} % of its variance lies outside."
+    )
+    if share > NEGLIGIBLE:
+        raise InputError(f"{found} At most {100 * NEGLIGIBLE:g} % can be left out: extend the coefficients or limit the sea.")
+    if share > 0.0:
+        warnings.warn(f"{found} It exerts no force.", OgilvieWarning, stacklevel=5)

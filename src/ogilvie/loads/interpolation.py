@@ -1,0 +1,151 @@
+"""Wave forces between the tabulated frequencies and headings, as complex numbers."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ogilvie.errors import InputError
+from ogilvie.loads.base import ComplexArray, embed
+
+Array = NDArray[Any]
+TURN = 2.0 * np.pi
+_PORT_STARBOARD = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
+_SYMMETRIC_WITHIN = 1e-3
+_TOLERANCE = 1e-6  # rad
+_WIDEST_GAP = np.pi / 3  # rad; headings further apart are not interpolated between
+
+
+@dataclass(frozen=True, eq=False)
+class Headings:
+    """Tabulated headings in ascending order from `start`, rad; periodic where they go all around."""
+
+    values: Array
+    periodic: bool
+
+    @property
+    def start(self) -> float:
+        """First heading, rad."""
+        return float(self.values[0])
+
+    @property
+    def text(self) -> str:
+        """The range in degrees."""
+        return f"{np.degrees(self.values[0]):.4g}..{np.degrees(self.values[-1]):.4g} deg"
+
+
+def symmetric_headings(hydro: xr.Dataset, table: ComplexArray) -> tuple[Headings, ComplexArray]:
+    """Return headings and forces (n_w, n_b, 6) that go as far around as the data and the hull's symmetry allow.
+
+    Notes
+    -----
+    For a hull that is its own mirror image F(-b) = S F(b) with S = diag(1, -1, 1, -1, 1, -1).
+    """
+    b = np.mod(hydro.wave_direction.values.astype(float) + _TOLERANCE, TURN) - _TOLERANCE
+    if is_mirror_symmetric(hydro, table):
+        b = np.concatenate([b, np.mod(-b + _TOLERANCE, TURN) - _TOLERANCE])
+        table = np.concatenate([table, table * _PORT_STARBOARD], axis=1)
+    order = np.argsort(b, kind="stable")
+    b, table = b[order], table[:, order]
+    keep = np.concatenate([[True], np.diff(b) > _TOLERANCE])
+    if len(b) > 1 and b[0] + TURN - b[-1] <= _TOLERANCE:
+        keep[-1] = False
+    return _unwrapped(b[keep], table[:, keep])
+
+
+def _unwrapped(b: Array, table: ComplexArray) -> tuple[Headings, ComplexArray]:
+    """Begin after the largest gap, so that the headings ascend; no gap larger than the others means all around."""
+    if len(b) == 1:
+        return Headings(b, False), table
+    gaps = np.diff(np.append(b, b[0] + TURN))  # gap i follows heading i
+    first = (int(gaps.argmax()) + 1) % len(b)
+    periodic = len(b) >= 4 and gaps.max() <= 1.5 * np.sort(gaps)[-2]
+    turned = np.roll(b, -first)
+    turned = turned + TURN * (turned < turned[0])
+    if turned[0] > np.pi:
+        turned = turned - TURN
+    return Headings(turned, periodic), np.roll(table, -first, axis=1)
+
+
+def is_mirror_symmetric(hydro: xr.Dataset, table: ComplexArray) -> bool:
+    """Return whether the data are those of a port-starboard symmetric hull.
+
+    Notes
+    -----
+    No added mass or damping couples surge, heave, pitch with sway, roll, yaw; head and following seas exert no force in sway,
+    roll and yaw; and where a heading and its mirror image are both given, their forces are mirror images.
+    """
+    dofs = tuple(str(d) for d in hydro.influenced_dof.values)
+    coupled = np.abs(_PORT_STARBOARD[:, None] - _PORT_STARBOARD) > 0.5
+    for key in ("added_mass", "radiation_damping"):
+        M = np.abs(embed(hydro[key].values, dofs, (1, 2))).max(axis=0)
+        scale = np.sqrt(np.outer(np.diag(M), np.diag(M)))
+        if np.any(M[coupled] > _SYMMETRIC_WITHIN * np.maximum(scale[coupled], np.finfo(float).tiny)):
+            return False
+    b = hydro.wave_direction.values
+    size = np.abs(table).max(axis=(0, 1))
+    for i in range(len(b)):
+        for j in range(len(b)):
+            mirrored = abs((b[i] + b[j] + np.pi) % TURN - np.pi) < _TOLERANCE
+            difference = np.abs(table[:, i] - table[:, j] * _PORT_STARBOARD).max(axis=0)
+            if mirrored and np.any(difference > 2 * _SYMMETRIC_WITHIN * size):
+                return False
+    return True
+
+
+def evaluate(omega: Array, headings: Headings, table: ComplexArray, w: Array, b: Array) -> ComplexArray:
+    """Return the forces (n, 6) at frequencies w and headings b, each (n,), from the table (n_w, n_b, 6)."""
+    across = heading_weights(headings, b)  # (n, n_b)
+    used = np.flatnonzero(np.any(across != 0.0, axis=0))
+    if len(omega) == 1:
+        along = np.broadcast_to(table[:, used], (len(w), len(used), table.shape[2]))
+    else:
+        along = _spline(omega, table[:, used], w)
+    return np.einsum("nb,nbi->ni", across[:, used], along)
+
+
+def heading_weights(headings: Headings, b: Array) -> Array:
+    """Return the weights (n, n_b) of the tabulated headings in the value at each heading b (n,).
+
+    Raises
+    ------
+    InputError
+        Heading outside the data.
+    """
+    t = headings.values
+    x = t[0] + np.mod(b - t[0] + _TOLERANCE, TURN) - _TOLERANCE
+    _refuse_outside(headings, x)
+    if headings.periodic:
+        from scipy.interpolate import CubicSpline
+
+        ring = np.eye(len(t))[np.append(np.arange(len(t)), 0)]
+        return CubicSpline(np.append(t, t[0] + TURN), ring, bc_type="periodic")(x)
+    x = np.clip(x, t[0], t[-1])
+    return np.ones((len(b), 1)) if len(t) == 1 else _spline(t, np.eye(len(t)), x)
+
+
+def _refuse_outside(headings: Headings, x: Array) -> None:
+    """Refuse headings beyond the data and headings in a gap that is too wide to interpolate across."""
+    ring = np.append(headings.values, headings.start + TURN)
+    i = np.clip(np.searchsorted(ring, x, side="right") - 1, 0, len(ring) - 2)
+    at_node = np.minimum(np.abs(x - ring[i]), np.abs(x - ring[i + 1])) <= _TOLERANCE
+    widest = np.diff(ring)[i] > _WIDEST_GAP + _TOLERANCE
+    beyond = np.zeros(len(x), dtype=bool) if headings.periodic else x > headings.values[-1] + _TOLERANCE
+    bad = ~at_node & (widest | beyond)
+    if bad.any():
+        found = ", ".join(f"{np.degrees((v + np.pi) % TURN - np.pi):.4g}" for v in np.unique(x[bad].round(9))[:5])
+        given = ", ".join(f"{np.degrees(v):.4g}" for v in headings.values)
+        raise InputError(
+            f"WaveExcitation: headings relative to the bow among or between those of the coefficients ({given} deg, at most "
+            f"{np.degrees(_WIDEST_GAP):.0f} deg apart) expected, {found} deg found. "
+            "Compute or read coefficients for these headings."
+        )
+
+
+def _spline(x: Array, y: NDArray, at: Array) -> NDArray:
+    """Cubic spline through the rows of y (not-a-knot), of lower degree where there are fewer than four points."""
+    from scipy.interpolate import make_interp_spline
+
+    return make_interp_spline(x, y, k=min(3, len(x) - 1))(at)

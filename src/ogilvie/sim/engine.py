@@ -1,0 +1,166 @@
+"""What a simulation and a stepper share: equations, scheme, wave forces in blocks, the initial state."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ogilvie.errors import InputError
+from ogilvie.loads.harmonics import HarmonicGrid
+from ogilvie.sim.scheme import Scheme, make_scheme
+from ogilvie.sim.seaway import Seaway, combine_harmonics, mean_position, meet
+from ogilvie.sim.state import State, as_state
+from ogilvie.sim.system import LinearSystem, assemble
+from ogilvie.sim.vessel import Vessel
+from ogilvie.waves.field import Sea
+
+Array = NDArray[Any]
+ComplexArray = NDArray[Any]
+Initial = State | Mapping[str, Any] | str | None
+
+
+@dataclass(frozen=True, eq=False)
+class Engine:
+    """A vessel in a sea, bound to a time step.
+
+    Parameters
+    ----------
+    system : LinearSystem
+    scheme : Scheme
+    seaway : Seaway or None
+    dt, ramp : float
+        s; the sea grows from nothing with sin^2 during the ramp, counted from t = 0.
+    """
+
+    system: LinearSystem
+    scheme: Scheme
+    seaway: Seaway | None
+    dt: float
+    ramp: float
+
+    @property
+    def realisations(self) -> int:
+        """Number of realisations of the sea, 1 without a sea."""
+        return 1 if self.seaway is None else len(self.seaway.amplitude)
+
+    @cached_property
+    def block(self) -> int:
+        """Steps per block of wave forces: longer for many components, whose set-up a block pays once."""
+        n = 0 if self.seaway is None else len(self.seaway.frequency)
+        return 2047 if n <= 300 else 4095 if n <= 1200 else 8191
+
+    @cached_property
+    def _grid(self) -> HarmonicGrid:
+        assert self.seaway is not None
+        return HarmonicGrid(self.seaway.frequency, 0.5 * self.dt, 2 * self.block + 1)
+
+    @cached_property
+    def _transfer(self) -> ComplexArray:
+        assert self.seaway is not None
+        return self.seaway.transfer
+
+    def block_phases(self, block: int, origin: float) -> ComplexArray:
+        """Return the phases (n,) that all realisations share in a block."""
+        return np.zeros(0, dtype=complex) if self.seaway is None else self._grid.phases(origin + block * self.block * self.dt)
+
+    def wave_series(self, realisation: int, block: int, origin: float, phases: ComplexArray) -> Array:
+        """Return force (6) and elevation at half steps through a block, (2 block + 1, 7 or more)."""
+        if self.seaway is None:
+            return np.zeros((2 * self.block + 1, 7))
+        series = self._grid.series(self.seaway.amplitude[realisation] * phases, self._transfer)
+        t = origin + block * self.block * self.dt
+        if t < self.ramp:
+            series *= ramp_factor(t + 0.5 * self.dt * np.arange(len(series)), self.ramp)[:, None]
+        return series
+
+    def start(self, initial: Initial) -> tuple[Array, Array, float]:
+        """Return y = (eta, nu) (r, 12), memory (r, k) and time (s) of the beginning.
+
+        Raises
+        ------
+        InputError
+            Unknown kind, wrong shapes, memory of another model, no stationary motion.
+        """
+        if initial is None:
+            initial = "steady" if self.seaway is not None and self.ramp == 0.0 else "rest"
+        if isinstance(initial, str):
+            if initial not in ("steady", "rest"):
+                raise InputError(f"initial: 'steady', 'rest', a State or a mapping expected, {initial!r} found.")
+            if initial == "steady" and self.ramp > 0.0:
+                raise InputError(
+                    "initial: 'steady' needs the full sea from the beginning, a ramp was found. Give ramp=0 or initial='rest'."
+                )
+            return self._steady() if initial == "steady" else self._given(State())
+        return self._given(as_state(initial))
+
+    def _given(self, state: State) -> tuple[Array, Array, float]:
+        r = self.realisations
+        y = np.empty((r, 12))
+        for place, what in ((slice(0, 6), "eta"), (slice(6, 12), "nu")):
+            value = getattr(state, what)
+            if value.shape not in ((6,), (r, 6)):
+                raise InputError(f"initial: {what} of shape (6,){f' or ({r}, 6)' * (r > 1)} expected, {value.shape} found.")
+            y[:, place] = value
+        if state.memory is None:
+            return y, self.scheme.rest(y[:, 6:]), state.time
+        k = self.scheme.memory_size
+        if state.memory.shape not in ((k,), (r, k)):
+            raise InputError(
+                f"initial: memory of shape ({k},){f' or ({r}, {k})' * (r > 1)} expected, {state.memory.shape} found. "
+                "It holds only for the same memory model, method and dt."
+            )
+        return y, np.array(np.broadcast_to(state.memory, (r, k))), state.time
+
+    def _steady(self) -> tuple[Array, Array, float]:
+        y = np.zeros((self.realisations, 12))
+        y[:, :6] = mean_position(self.system)
+        if self.seaway is None:
+            return y, self.scheme.rest(y[:, 6:]), 0.0
+        w, a = self.seaway.frequency, self.seaway.amplitude
+        X = self.seaway.response(self.system)
+        y[:, :6] += combine_harmonics(a, X)
+        y[:, 6:] = combine_harmonics(a, 1j * w[:, None] * X)
+        return y, self.scheme.steady(w, X, a), 0.0
+
+
+def make_engine(vessel: Vessel, sea: Sea | None, *, dt: float, method: str, ramp: float) -> Engine:
+    """Bind a vessel and a sea to a time step.
+
+    Raises
+    ------
+    InputError
+        Not a vessel; dt or ramp outside their range; dt beyond stability; a sea that the loads do not cover.
+    """
+    if not isinstance(vessel, Vessel):
+        raise InputError(f"vessel: a Vessel expected, {type(vessel).__name__} found.")
+    positive(dt, "dt", "s")
+    if not (np.isfinite(ramp) and ramp >= 0.0):
+        raise InputError(f"ramp: a time >= 0 in s expected, {ramp!r} found.")
+    system = assemble(vessel)
+    scheme = make_scheme(system, float(dt), method)
+    return Engine(system, scheme, None if sea is None else meet(system, sea), float(dt), float(ramp))
+
+
+def ramp_factor(t: Array, ramp: float) -> Array:
+    """Return sin^2(pi t / (2 ramp)) during the ramp and 1 after it."""
+    return np.sin(0.5 * np.pi * np.clip(t / ramp, 0.0, 1.0)) ** 2
+
+
+def positive(value: float, what: str, unit: str) -> None:
+    """Raise :class:`InputError` unless the value is a positive finite number."""
+    try:
+        good = bool(np.isfinite(value) and value > 0.0)
+    except TypeError:
+        good = False
+    if not good:
+        raise InputError(f"{what}: a positive number of {unit} expected, {value!r} found.")
+
+
+def first_step(time: float, dt: float) -> tuple[int, float]:
+    """Return the number of the step that begins at a time (s) and the origin of the steps, 0 for a multiple of dt."""
+    n = round(time / dt)
+    origin = time - n * dt
+    return n, 0.0 if abs(origin) < 1e-6 * dt else origin

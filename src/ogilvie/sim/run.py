@@ -1,0 +1,162 @@
+"""A simulation in progress: all realisations advance block by block, in parallel."""
+
+import os
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numba import config
+from numpy.typing import NDArray
+
+from ogilvie.errors import ConvergenceError, InputError
+from ogilvie.hydro.progress import tracked
+from ogilvie.hydro.schema import DOFS
+from ogilvie.sim.dynamics import COLUMNS
+from ogilvie.sim.engine import Engine, Initial, first_step
+from ogilvie.sim.forces import LoadForce, load_forces
+
+Array = NDArray[Any]
+#: What a recorded row holds in its first 18 columns.
+MOTIONS = ("eta", "nu", "acceleration")
+_LARGE = 1e9  # m or rad: beyond this a motion has diverged
+
+
+@dataclass(eq=False)
+class Run:
+    """A run in progress: it advances all realisations block by block, and after each block the result so far is whole."""
+
+    engine: Engine
+    y: Array  # (r, 12)
+    memory: Array  # (r, k)
+    first: int  # number of the first step on the grid of times that begins at origin
+    origin: float
+    steps: int
+    stride: int
+    loads: Sequence[LoadForce]  # whose forces are wanted
+    series: dict[str, Array]  # (r, rows, 6), or (r, rows) for the elevation
+    rows: int = 0  # that are done
+
+    @classmethod
+    def begin(cls, engine: Engine, initial: Initial, duration: float, stride: int, names: Sequence[str]) -> "Run":
+        """Return a run that stands at its initial state, with room for its result."""
+        y, memory, time = engine.start(initial)
+        first, origin = first_step(time, engine.dt)
+        steps = max(1, int(np.ceil(duration / engine.dt - 1e-9)))
+        loads = load_forces(engine.system, engine.seaway) if "forces" in names else ()
+        wanted = [key for key in MOTIONS if key in names] + [f"force_{f.name}" for f in loads]
+        shape = (engine.realisations, steps // stride + 1)
+        _check_memory(shape[0] * shape[1], 6 * len(wanted) + 1)
+        series = {key: np.empty((*shape, 6)) for key in wanted}
+        if "elevation" in names and engine.seaway is not None:
+            series["elevation"] = np.empty(shape)
+        return cls(engine, y, memory, first, origin, steps, stride, loads, series)
+
+    def times(self) -> Array:
+        """Times of the rows that are done, s."""
+        return self.origin + (self.first + self.stride * np.arange(self.rows)) * self.engine.dt
+
+    def go(self, progress: bool | None) -> KeyboardInterrupt | ConvergenceError | None:
+        """Run to the end; return what stopped it before, if anything."""
+        number = len(self.y)
+        threads = min(number, config.NUMBA_NUM_THREADS)  # type: ignore[attr-defined]
+        pool = ThreadPoolExecutor(threads) if threads > 1 else None
+        try:
+            for done, count in tracked(self._blocks(), show=progress, title="simulate"):
+                self._block(done, count, pool, 4 * threads)
+                self._check(done, count)
+        except KeyboardInterrupt as stop:
+            if self.rows == 0:
+                raise
+            return stop
+        except ConvergenceError as error:
+            return error
+        finally:
+            if pool is not None:
+                pool.shutdown(cancel_futures=True)
+        return None
+
+    def _blocks(self) -> list[tuple[int, int]]:
+        """Steps done before and steps in each block of wave forces; the step after the last writes the last row."""
+        size, end = self.engine.block, self.first + self.steps + 1
+        inner = range((self.first // size + 1) * size, end, size)
+        edges = [self.first, *inner, end]
+        return [(a - self.first, b - a) for a, b in pairwise(edges)]
+
+    def _block(self, done: int, count: int, pool: ThreadPoolExecutor | None, shares: int) -> None:
+        """Advance all realisations through a block of wave forces."""
+        engine, i = self.engine, self.first + done
+        block = i // engine.block
+        phases = engine.block_phases(block, self.origin)
+
+        def work(realisations: NDArray[np.intp]) -> None:
+            for r in realisations:
+                self._advance(int(r), block, phases, i - block * engine.block, done, count)
+
+        everyone = np.arange(len(self.y))
+        if pool is None:
+            work(everyone)
+        else:
+            list(pool.map(work, np.array_split(everyone, min(shares, len(everyone)))))
+
+    def _advance(self, r: int, block: int, phases: NDArray[np.complex128], offset: int, done: int, count: int) -> None:
+        engine, rows = self.engine, self._rows(done, count)
+        wave = engine.wave_series(r, block, self.origin, phases)
+        motion = np.empty((rows.stop - rows.start, COLUMNS))
+        engine.scheme.advance(
+            self.y[r],
+            self.memory[r],
+            wave,
+            engine.system.constant,
+            row=2 * offset,
+            steps=count,
+            first=done,
+            stride=self.stride,
+            out=motion,
+        )
+        for i, key in enumerate(MOTIONS):
+            if key in self.series:
+                self.series[key][r, rows] = motion[:, 6 * i : 6 * i + 6]
+        begin, step = 2 * (offset + (-done) % self.stride), 2 * self.stride
+        if "elevation" in self.series:
+            self.series["elevation"][r, rows] = wave[begin : 2 * (offset + count) : step, 6]
+        for load in self.loads:
+            load.fill(motion, wave, begin, step, self.series[f"force_{load.name}"][r, rows])
+
+    def _rows(self, done: int, count: int) -> slice:
+        """Rows that the steps done, ..., done + count - 1 write."""
+        return slice(-(-done // self.stride), -(-(done + count) // self.stride))
+
+    def _check(self, done: int, count: int) -> None:
+        """Count the rows of a block as done, up to the first at which a motion has diverged."""
+        rows = self._rows(done, count)
+        if np.abs(self.y).max() < _LARGE:  # False for NaN
+            self.rows = rows.stop
+            return
+        good = np.ones(rows.stop - rows.start, dtype=bool)
+        for key, values in self.series.items():
+            part = np.abs(values[:, rows]).reshape(len(self.y), len(good), -1)
+            good &= (part < (_LARGE if key in ("eta", "nu") else np.inf)).all(axis=(0, 2))
+        self.rows = rows.start + (good.size if good.all() else int(good.argmin()))
+        size = np.where(np.isfinite(self.y), np.abs(self.y), np.inf).max(axis=0)
+        raise ConvergenceError(
+            f"simulate: {DOFS[int(size.argmax()) % 6]} diverges after {self.times()[-1:].sum():g} s (beyond {_LARGE:g} m or "
+            "rad, or not a number). The vessel itself is unstable: check restoring, memory model and damping. The error's "
+            "attribute 'result' holds what was computed before."
+        )
+
+
+def _check_memory(rows: int, columns: int) -> None:
+    """Refuse a result that does not fit in the machine's memory."""
+    need = 8 * rows * columns
+    try:
+        have = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    except (AttributeError, ValueError, OSError):
+        return
+    if need > have:
+        raise InputError(
+            f"simulate: the result would take {need / 1e9:.3g} GB, this machine has {have / 1e9:.3g} GB. Give a longer "
+            "output_step, fewer realisations at a time, or variables without 'forces'."
+        )

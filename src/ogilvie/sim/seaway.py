@@ -1,0 +1,115 @@
+"""A sea as a vessel meets it: encounter frequencies, wave forces, the stationary response."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ogilvie.errors import InputError
+from ogilvie.sim.system import LinearSystem
+from ogilvie.waves.field import Sea
+
+Array = NDArray[Any]
+ComplexArray = NDArray[Any]
+
+
+@dataclass(frozen=True, eq=False)
+class Seaway:
+    """Wave components in the steady frame of a vessel, which is at the origin of the sea at t = 0.
+
+    Parameters
+    ----------
+    frequency : (n,) array
+        Signed encounter frequency w - k U cos(b), rad/s.
+    amplitude : (r, n) complex array
+        a exp(i phase), m; one row per realisation.
+    force : (n_loads, n, 6) complex array
+        Force of each wave load per metre of amplitude.
+    names : tuple of str
+        Of the wave loads.
+    batched : bool
+        Whether the sea has an axis of realisations.
+    """
+
+    frequency: Array
+    amplitude: ComplexArray
+    force: ComplexArray
+    names: tuple[str, ...]
+    batched: bool
+
+    @property
+    def transfer(self) -> ComplexArray:
+        """Coefficients (n, 7 or more): total force (6), elevation, then the force of each load if there are several."""
+        n = len(self.frequency)
+        parts = [self.force.sum(axis=0), np.ones((n, 1), dtype=complex)]
+        if len(self.names) > 1:
+            parts.extend(self.force)
+        return np.ascontiguousarray(np.concatenate(parts, axis=1))
+
+    def columns(self) -> dict[str, int]:
+        """Where the six columns of each wave load's force begin in :attr:`transfer`."""
+        return {name: 0 if len(self.names) == 1 else 7 + 6 * i for i, name in enumerate(self.names)}
+
+    def response(self, system: LinearSystem) -> ComplexArray:
+        """Return the stationary motion (n, 6) per metre of amplitude: Z(w_e)^-1 F.
+
+        Raises
+        ------
+        InputError
+            No stationary motion exists at some encounter frequency.
+        """
+        Z = system.impedance(self.frequency)
+        F = self.force.sum(axis=0)
+        rigid = np.linalg.cond(Z) > 1e13
+        if np.any(rigid):
+            raise InputError(
+                f"initial: no stationary motion exists at the encounter frequency {self.frequency[rigid][0]:.3g} rad/s, where "
+                "nothing holds the vessel. Start with initial='rest' and a ramp, or add restoring, damping or mooring."
+            )
+        return np.linalg.solve(Z, F[..., None])[..., 0]
+
+
+def meet(system: LinearSystem, sea: Sea) -> Seaway:
+    """Return a sea as the vessel meets it.
+
+    Raises
+    ------
+    InputError
+        Not a sea, or components that the loads do not cover.
+    """
+    if not isinstance(sea, Sea):
+        raise InputError(f"sea: a Sea (e.g. from irregular or regular) expected, {type(sea).__name__} found.")
+    loads = [(name, term.wave) for name, term in zip(system.names, system.terms, strict=True) if term.wave is not None]
+    force = [wave(sea, system.heading) for _, wave in loads]
+    return Seaway(
+        frequency=sea.omega - sea.wavenumber * system.speed * np.cos(sea.direction - system.heading),
+        amplitude=np.ascontiguousarray(np.atleast_2d(sea.complex_amplitude)),
+        force=np.array(force) if force else np.zeros((0, len(sea.omega), 6), dtype=complex),
+        names=tuple(name for name, _ in loads),
+        batched=sea.amplitude.ndim == 2,
+    )
+
+
+def combine_harmonics(amplitude: Array, response: Array) -> Array:
+    """Return Re sum_j amplitude_rj response_j (r, m) at t = 0, each realisation by itself so that its bits are its own."""
+    return np.array([(a @ response).real for a in amplitude])
+
+
+def mean_position(system: LinearSystem) -> Array:
+    """Return the displacement (6,) at which restoring and mooring balance the constant forces.
+
+    Raises
+    ------
+    InputError
+        A constant force acts where nothing restores.
+    """
+    F = system.constant
+    if not F.any():
+        return np.zeros(6)
+    eta = np.linalg.lstsq(system.stiffness, F, rcond=None)[0]
+    if not np.allclose(system.stiffness @ eta, F, rtol=1e-6, atol=1e-9 * np.abs(F).max()):
+        raise InputError(
+            "initial: a constant force acts where nothing restores, so there is no stationary motion. Use initial='rest'."
+        )
+    return eta
