@@ -132,8 +132,8 @@ def _check_inertia(inertia: Array) -> None:
     excess = I[2] / (I[0] + I[1]) - 1.0
     if excess > 1e-9:
         found = (
-            f"inertia: principal moments {I[0]:.6g}, {I[1]:.6g}, {I[2]:.6g} kg m2 violate the triangle inequality I1 + I2 >= I3 "
-            f"by {excess:.2%}; no mass distribution has them. Check radii of gyration and reference point."
+            f"inertia: principal moments {I[0]:.6g}, {I[1]:.6g}, {I[2]:.6g} kg m2 violate the triangle inequality "
+            f"I1 + I2 >= I3 by {excess:.2%}; no mass distribution has them. Check radii of gyration and reference point."
         )
         if excess > _ROUNDING:
             raise InputError(found)

@@ -1,6 +1,7 @@
 """From retardation functions to a state-space model: the methods, the blocks, what is reported."""
 
 import warnings
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -8,15 +9,29 @@ from numpy.typing import ArrayLike, NDArray
 
 from ogilvie.errors import InputError, OgilvieWarning
 from ogilvie.memory.blocks import coupled_blocks, r_squared
+from ogilvie.memory.common_poles import condense
+from ogilvie.memory.frequency import identify_by_frequency
 from ogilvie.memory.passive import check_square, identify_passive, radiation_data
+from ogilvie.memory.passive_start import identify_passive_from
 from ogilvie.memory.passivity import is_passive, smallest_damping
+from ogilvie.memory.prony import identify_by_prony
+from ogilvie.memory.raise_order import shortfall
 from ogilvie.memory.realization import identify_by_realization
 from ogilvie.memory.retardation import Retardation
 from ogilvie.memory.statespace import StateSpace, modal_form, stack_blocks
+from ogilvie.memory.targets import FitTarget, Impulse, Spectrum, Trial
+from ogilvie.memory.vector_fitting import identify_by_vector_fitting
 
 Array = NDArray[Any]
+Blocks = list[tuple[list[int], Array, Array, Array]]
 
-METHODS = ("oscillators", "realization")
+_FITS_TO: dict[str, tuple[Any, Callable[..., tuple[Trial, Array]]]] = {
+    "realization": (Impulse, identify_by_realization),
+    "impulse": (Impulse, identify_by_prony),
+    "frequency": (Spectrum, identify_by_frequency),
+    "vector": (Spectrum, identify_by_vector_fitting),
+}
+METHODS = ("oscillators", *_FITS_TO)
 
 
 def identify(
@@ -26,10 +41,11 @@ def identify(
     r2: float = 0.99,
     order: int | None = None,
     max_order: int = 60,
+    passive: bool = True,
     mass: ArrayLike | None = None,
     stiffness: ArrayLike | None = None,
 ) -> StateSpace:
-    """Return a stable state-space model of the fluid memory; with the default method it is passive for any data.
+    """Return a stable state-space model of the fluid memory; unless told otherwise it is passive for any data.
 
     The couplings are sorted into blocks that do not interact (surge-heave-pitch and sway-roll-yaw for a symmetric hull);
     each block shares one set of poles. Blocks grow until every coupling reaches `r2`.
@@ -37,20 +53,26 @@ def identify(
     Parameters
     ----------
     K : Retardation
-    method : {"oscillators", "realization"}
+    method : {"oscillators", "realization", "impulse", "frequency", "vector"}
         ``oscillators``: oscillators that share dampers, fitted to added mass and damping; symmetric, passive and zero at zero
-        frequency whatever the data. ``realization``: singular values of the Hankel matrix of K, bilinear map, outputs refitted
-        (paper A); stable, not passive.
+        frequency whatever the data. The others find poles by ``realization``: singular values of the Hankel matrix of K and the
+        bilinear map (paper A's RTM); ``impulse``: Prony's method and Steiglitz-McBride iterations on K (paper A's IRCFM);
+        ``frequency``: rational functions with a common denominator fitted to added mass and damping (FDI of Perez and Fossen);
+        ``vector``: vector fitting of the same.
     r2 : float
-        Coefficient of determination to be reached, 0 < r2 < 1: of A(omega) and B(omega) of each coupling for ``oscillators``,
-        of K(t) for ``realization``.
+        Coefficient of determination to be reached, 0 < r2 < 1: of A(omega) and B(omega) of each coupling; of K(t) for
+        ``realization`` and ``impulse`` as published.
     order : int, optional
-        Number of states of every block, instead of `r2`.
+        Number of states of every block, instead of `r2`; passive models have an even number.
     max_order : int
         Largest number of states of the model.
+    passive : bool
+        Whether the model must be passive. If so, the poles that a method finds are the start of the oscillator form, which is
+        fitted to added mass and damping; if not, the methods give what was published: stable, but hardly ever passive. The
+        default method is passive either way.
     mass, stiffness : (m, m) array, optional
-        Rigid-body inertia and restoring about O. With them the fit of ``oscillators`` is aware of the motion: it weighs what
-        the fit changes in the motion of the free-floating body under unit forces, and grows until that change is small.
+        Rigid-body inertia and restoring about O. With them a passive fit is aware of the motion: it weighs what the fit changes
+        in the motion of the free-floating body under unit forces, and grows until that change is small.
 
     Returns
     -------
@@ -60,7 +82,7 @@ def identify(
     Raises
     ------
     InputError
-        Unknown method, r2 outside (0, 1), order < 1, K that is zero, matrices of the wrong shape.
+        Unknown method, r2 outside (0, 1), an order that the method cannot have, K that is zero, matrices of the wrong shape.
 
     Warns
     -----
@@ -69,7 +91,9 @@ def identify(
 
     Notes
     -----
-    R2 = 1 - sum (x - x_fit)^2 / sum (x - mean x)^2.
+    R2 = 1 - sum (x - x_fit)^2 / sum (x - mean x)^2. ``impulse``, ``frequency`` and ``vector`` as published find common poles
+    with residues of full rank, m states for each pole of a block of m degrees of freedom; balanced truncation then takes away
+    the states that R2 does not need. ``frequency`` and ``vector`` have K_hat(0) = 0.
 
     References
     ----------
@@ -90,19 +114,52 @@ def identify(
     blocks = coupled_blocks(K.K)
     if not blocks:
         raise InputError("identify: K is zero; there is no fluid memory to model.")
-    m = len(K.dofs)
-    A_inf, notes = K.A_inf, [n for n in K.notes if n.startswith("damping not positive")]
-    if method == "realization":
-        models, found = identify_by_realization(K, blocks, r2=r2, order=order, max_order=max_order)
+    m, notes = len(K.dofs), [n for n in K.notes if n.startswith("damping not positive")]
+    M = None if mass is None else check_square("mass", mass, m)
+    C = None if stiffness is None else check_square("stiffness", stiffness, m)
+    if method == "oscillators":
+        models, A_inf, said = identify_passive(K, blocks, r2=r2, order=order, max_order=max_order, mass=M, stiffness=C)
+    elif passive:
+        poles = [trial.poles for _, trial, _ in _found(K, blocks, method, r2, order, max_order)]
+        models, A_inf, said = identify_passive_from(
+            K, blocks, poles, r2=r2, order=order, max_order=max_order, mass=M, stiffness=C
+        )
     else:
-        M = None if mass is None else check_square("mass", mass, m)
-        C = None if stiffness is None else check_square("stiffness", stiffness, m)
-        models, A_inf, found = identify_passive(K, blocks, r2=r2, order=order, max_order=max_order, mass=M, stiffness=C)
-    for note in found:
+        models, A_inf, said = _as_published(K, blocks, method, r2, order, max_order)
+    for note in said:
         warnings.warn(f"identify: {note}", OgilvieWarning, stacklevel=2)
-    parts = [(dofs, *modal_form(a, b, c)) for dofs, a, b, c in models]
-    A, B, C_out = stack_blocks(parts, m)
-    return _reported(StateSpace(A, B, C_out, K.dofs, A_inf=A_inf, method=method, notes=tuple(notes + found)), K)
+    A, B, C_out = stack_blocks([(dofs, *modal_form(a, b, c)) for dofs, a, b, c in models], m)
+    return _reported(StateSpace(A, B, C_out, K.dofs, A_inf=A_inf, method=method, notes=tuple(notes + said)), K)
+
+
+def _found(
+    K: Retardation, blocks: list[list[int]], method: str, r2: float, order: int | None, max_order: int
+) -> Iterator[tuple[FitTarget, Trial, Array]]:
+    """What the papers' method finds for each block and the R2 it reaches; blocks share the states by their size."""
+    target_of, fit = _FITS_TO[method]
+    for dofs in blocks:
+        target = target_of.of(K, dofs)
+        yield target, *fit(target, r2=r2, order=order, limit=max(2, max_order * len(dofs) // sum(map(len, blocks))))
+
+
+def _as_published(
+    K: Retardation, blocks: list[list[int]], method: str, r2: float, order: int | None, max_order: int
+) -> tuple[Blocks, Array, list[str]]:
+    """Models of the blocks [(dofs, A, B, C)], A_inf (m, m) and notes on couplings that do not reach `r2`."""
+    models: Blocks = []
+    A_inf, notes = np.array(K.A_inf), []
+    for dofs, (target, x, reached) in zip(blocks, _found(K, blocks, method, r2, order, max_order), strict=True):
+        if order is None:
+            x, reached = condense(target, x, reached, r2)
+            notes += shortfall(K.dofs, dofs, reached, r2, len(x.A))
+        elif order != len(x.A):
+            raise InputError(
+                f"order: {len(x.A)} is the closest that {method!r} and these data allow for "
+                f"{', '.join(K.dofs[i] for i in dofs)}, {order} found."
+            )
+        models.append((dofs, x.A, x.B * target.scale, x.C * target.scale[:, None]))
+        A_inf[np.ix_(dofs, dofs)] = x.A_inf * np.outer(target.scale, target.scale)
+    return models, A_inf, notes
 
 
 def _reported(model: StateSpace, K: Retardation) -> StateSpace:

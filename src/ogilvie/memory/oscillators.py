@@ -1,10 +1,10 @@
 """Oscillators that share dampers: the reciprocal, passive form of fluid memory (kernels).
 
-    w'' + D D^T w' + W^2 w = b nu,   mu = b^T w'      K_hat(s) = s b^T (s^2 + s D D^T + W^2)^-1 b
+    w'' + R w' + W^2 w = b nu,   mu = b^T w',   R = D D^T + 2 z W      K_hat(s) = s b^T (s^2 + s R + W^2)^-1 b
 
-with n oscillators, W = diag(w_k), b (n, m) and D (n, r). Whatever the numbers, K_hat is symmetric, K_hat(0) = 0, and
-Re K_hat(i omega) = omega^2 |D^T (...)^-1 b|^2 >= 0: damping is the power that the dampers take away. A (n_p,) vector of
-parameters holds [x = log w (n) | b (n m) | D (n r)], row by row.
+with n oscillators, W = diag(w_k), b (n, m), D (n, r) and a small damping z of each oscillator's own. Whatever the numbers,
+K_hat is symmetric, K_hat(0) = 0, and Re K_hat(i omega) = omega^2 b^H (...)^-H R (...)^-1 b >= 0: damping is the power that the
+dampers take away. A (n_p,) vector of parameters holds [x = log w (n) | b (n m) | D (n r)], row by row.
 """
 
 from typing import Any
@@ -14,6 +14,9 @@ from numba import njit
 from numpy.typing import NDArray
 
 Array = NDArray[Any]
+
+#: z: no mode of the model is damped less than about this share of critical, so that none can hide between two frequencies.
+OWN_DAMPING = 0.005
 
 
 @njit(cache=True, nogil=True)
@@ -59,7 +62,7 @@ def response(p: Array, n: int, m: int, r: int, omega: Array) -> tuple[Array, Arr
         for i in range(n):
             for j in range(n):
                 delta[i, j] = 1j * w * DD[i, j]
-            delta[i, i] += W2[i] - w * w
+            delta[i, i] += W2[i] - w * w + 2j * w * OWN_DAMPING * np.sqrt(W2[i])
             for j in range(m):
                 Y[f, i, j] = b[i, j]
         _solve_in_place(delta, Y[f])
@@ -90,19 +93,19 @@ def derivatives(p: Array, n: int, m: int, r: int, omega: Array, Y: Array) -> Arr
                 J[f, i, :, n + k * m + i] += s * Y[f, k]
                 J[f, :, i, n + k * m + i] += s * Y[f, k]
                 for j in range(m):
-                    J[f, i, j, k] = -2.0 * s * W2[k] * Y[f, k, i] * Y[f, k, j]
+                    J[f, i, j, k] = -2.0 * s * (W2[k] + s * OWN_DAMPING * np.sqrt(W2[k])) * Y[f, k, i] * Y[f, k, j]
                     for q in range(r):
                         J[f, i, j, n + n * m + k * r + q] = -s * s * (Y[f, k, i] * Z[q, j] + Z[q, i] * Y[f, k, j])
     return J
 
 
 def state_space(p: Array, n: int, m: int, r: int) -> tuple[Array, Array, Array]:
-    """Return (A, B, C) with states (w', W w): A = [[-D D^T, -W], [W, 0]], B = (b, 0), C = B^T.
+    """Return (A, B, C) with states (w', W w): A = [[-R, -W], [W, 0]], B = (b, 0), C = B^T.
 
-    A + A^T = -2 diag(D D^T, 0) <= 0 and C = B^T: passive by inspection, the stored energy is |x|^2 / 2.
+    A + A^T = -2 diag(R, 0) <= 0 and C = B^T: passive by inspection, the stored energy is |x|^2 / 2.
     """
     W = np.diag(np.exp(p[:n]))
     b, D = p[n : n + n * m].reshape(n, m), p[n + n * m :].reshape(n, r)
-    A = np.block([[-D @ D.T, -W], [W, np.zeros((n, n))]])
+    A = np.block([[-D @ D.T - 2 * OWN_DAMPING * W, -W], [W, np.zeros((n, n))]])
     B = np.vstack([b, np.zeros((n, m))])
     return A, B, B.T

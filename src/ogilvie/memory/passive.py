@@ -14,7 +14,8 @@ from ogilvie.memory.retardation import Retardation
 
 Array = NDArray[Any]
 
-MOTION_TOLERANCE = 0.0065  # change of the motion under unit forces at which the order is high enough
+MOTION_TOLERANCE = 0.007  # change of the motion under unit forces at which the order is high enough
+_LOSS = 0.02  # of inertia and stiffness in the compliance
 _STUCK = 3  # oscillators without progress after which a coupling is said to fit no causal model
 _ZERO = 1e-3  # of sqrt(spread_ii spread_jj): a coupling below it is zero by symmetry
 
@@ -74,15 +75,20 @@ def identify_passive(
                 block.p, _ = grow(block.fit, block.p)
     else:
         _grow_until(state, r2, max_order, K.dofs, notes)
+    return *polished(state, K), notes
+
+
+def polished(blocks: list[_Block], K: Retardation) -> tuple[list[tuple[list[int], Array, Array, Array]], Array]:
+    """Return the models of the blocks [(dofs, A, B, C)] after a last descent, and A_inf (m, m), in SI."""
     models, A_inf = [], np.array(K.A_inf)
-    for block in state:
+    for block in blocks:
         block.p, _ = optimise(block.fit, block.p, 80)
         n = block.fit.oscillators(block.p)
         a, b, c = state_space(block.p[block.fit.n_inf :], n, len(block.dofs), block.fit.r)
         models.append((block.dofs, a, b * block.scale, c * block.scale[:, None]))
         where = np.ix_(block.dofs, block.dofs)
         A_inf[where] = (block.fit.target.A_inf + block.fit.correction(block.p)) * np.outer(block.scale, block.scale)
-    return models, A_inf, notes
+    return models, A_inf
 
 
 def radiation_data(K: Retardation) -> tuple[Array, Array, Array]:
@@ -116,11 +122,19 @@ def _prepare(
     weight = (spread > _ZERO * np.sqrt(np.outer(np.diag(spread), np.diag(spread)))).astype(float)
     compliance = None
     if mass is not None and stiffness is not None:
-        w = omega[:, None, None]
-        compliance = np.linalg.inv(-(w**2) * (mass[where] / square + a) + 1j * w * b + stiffness[where] / square)
+        compliance = _compliance(omega, mass[where] / square + a, b, stiffness[where] / square)
     A_inf = _symmetric(K.A_inf[where]) / square
-    fit = Fit(Target(omega, a, b, A_inf, K.A_inf_given, weight, compliance))
+    fit = Fit(Target(omega, a, b, A_inf, K.A_inf_given, weight, _symmetric(K.K[0][where]) / square, compliance))
     return _Block(dofs, fit, scale, np.zeros(fit.n_inf), [], weight == 0.0)
+
+
+def _compliance(omega: Array, M: Array, B: Array, C: Array) -> Array:
+    """X (n_w, m, m) of the floating body; a loss of 2 % of inertia and stiffness keeps one resonance from ruling the fit."""
+    w = omega[:, None, None]
+    loss = np.zeros_like(M)
+    i = np.arange(len(C))
+    loss[:, i, i] = _LOSS * (np.abs(np.diag(C)) + omega[:, None] ** 2 * np.abs(M[:, i, i]))
+    return np.linalg.inv(-(w**2) * M + 1j * (w * B + loss) + C)
 
 
 def _grow_until(blocks: list[_Block], r2: float, max_order: int, names: tuple[str, ...], notes: list[str]) -> None:

@@ -12,9 +12,9 @@ from ogilvie.memory.oscillators import derivatives, response
 Array = NDArray[Any]
 
 DAMPERS = 3  # r; more gain nothing on any vessel tried, one is too few
-_MOTION_WEIGHT = 10.0
+_MOTION_WEIGHT = 20.0
 _A_INF_TOLERANCE = 0.5  # standard deviations of A(omega) by which a given A_inf may be off at the cost of one residual
-_DAMPING_FLOOR = 0.02  # of critical: a sharper resonance than that hides between the frequencies
+_INITIAL_WEIGHT = 0.05  # of K(0+), which the data beyond the last frequency determine only roughly
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,6 +31,8 @@ class Target:
     A_inf_given : bool
     weight : (m, m) array
         Of each coupling in the residuals of A and B; 0 where it is zero by symmetry.
+    K_initial : (m, m) array
+        K(0+), an estimate: it keeps the model from inventing fast memory beyond the last frequency.
     compliance : (n_w, m, m) complex array, optional
         X = compliance F of the free-floating body; the fit then weighs the change of the motion, -i omega compliance dK_hat X.
     """
@@ -41,6 +43,7 @@ class Target:
     A_inf: Array
     A_inf_given: bool
     weight: Array
+    K_initial: Array
     compliance: Array | None
 
 
@@ -55,7 +58,7 @@ class Fit:
         self.data = target.B + 1j * target.omega[:, None, None] * (target.A - target.A_inf)
         self.motion = self._motion_matrix()
         self.reweigh()
-        self.bounds = np.log(0.1 * target.omega[0]), np.log(6.0 * target.omega[-1])
+        self.bounds = np.log(0.1 * target.omega[0]), np.log(4.0 * target.omega[-1])
 
     def reweigh(self) -> None:
         """Take over the weights of the couplings from the target."""
@@ -64,6 +67,8 @@ class Fit:
         f = self.target.weight[self.i, self.j] / np.sqrt(len(self.target.omega))
         self.fB = f / self.sB[self.i, self.j]
         self.fA = f / self.sA[self.i, self.j] / self.target.omega[:, None]
+        size = np.sqrt(np.maximum(np.diag(self.target.K_initial), 1e-300))
+        self.fK = _INITIAL_WEIGHT / np.outer(size, size)
 
     def correction(self, p: Array) -> Array:
         """Change of A_inf (m, m) in the parameters."""
@@ -141,27 +146,25 @@ class Fit:
         return np.sqrt(change.sum(axis=0)) / _MOTION_WEIGHT
 
     def _penalties(self, p: Array) -> list[Array]:
-        """Residuals that keep A_inf near its given value, frequencies in range and resonances as broad as the data resolve."""
+        """Residuals that keep A_inf near its given value, frequencies in range and K(0+) = b^T b near its estimate."""
         n = self.oscillators(p)
-        x, D = p[self.n_inf : self.n_inf + n], p[len(p) - n * self.r :].reshape(n, self.r)
+        x, b, _ = _split(p[self.n_inf :], n, self.m, self.r)
         low, high = self.bounds
-        ratio = np.log((D**2).sum(axis=1) / 2 + 1e-300) - x - np.log(_DAMPING_FLOOR)
         hold = 1 / _A_INF_TOLERANCE if self.target.A_inf_given else 1e-3
-        return [hold * p[: self.n_inf], np.maximum(x - high, 0) + np.minimum(x - low, 0), 0.1 * np.minimum(ratio, 0)]
+        initial = (self.fK * (b.T @ b - self.target.K_initial))[np.triu_indices(self.m)]
+        return [hold * p[: self.n_inf], np.maximum(x - high, 0) + np.minimum(x - low, 0), initial]
 
     def _penalty_slopes(self, p: Array) -> list[Array]:
         n, n_p = self.oscillators(p), len(p)
-        x, D = p[self.n_inf : self.n_inf + n], p[n_p - n * self.r :].reshape(n, self.r)
+        x, b, _ = _split(p[self.n_inf :], n, self.m, self.r)
         low, high = self.bounds
-        size = (D**2).sum(axis=1) + 1e-300
-        slopes = [np.zeros((self.n_inf, n_p)), np.zeros((n, n_p)), np.zeros((n, n_p))]
+        slopes = [np.zeros((self.n_inf, n_p)), np.zeros((n, n_p)), np.zeros((self.n_inf, n_p))]
         slopes[0][:, : self.n_inf] = np.eye(self.n_inf) * (1 / _A_INF_TOLERANCE if self.target.A_inf_given else 1e-3)
-        for k in range(n):
-            slopes[1][k, self.n_inf + k] = float(x[k] > high or x[k] < low)
-            if np.log(size[k] / 2) - x[k] < np.log(_DAMPING_FLOOR):
-                slopes[2][k, self.n_inf + k] = -0.1
-                start = n_p - n * self.r + k * self.r
-                slopes[2][k, start : start + self.r] = 0.2 * D[k] / size[k]
+        slopes[1][np.arange(n), self.n_inf + np.arange(n)] = (x > high) | (x < low)
+        at = self.n_inf + n + self.m * np.arange(n)
+        for row, (i, j) in enumerate(self.upper):
+            slopes[2][row, at + i] += self.fK[i, j] * b[:, j]
+            slopes[2][row, at + j] += self.fK[i, j] * b[:, i]
         return slopes
 
 

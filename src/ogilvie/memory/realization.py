@@ -10,14 +10,14 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
-from ogilvie.memory.blocks import r_squared
-from ogilvie.memory.retardation import Retardation
-from ogilvie.memory.statespace import StateSpace, modal_form
+from ogilvie.memory.raise_order import raise_order
+from ogilvie.memory.statespace import modal_form
+from ogilvie.memory.targets import Impulse, Trial
 
 Array = NDArray[Any]
 
-
 _SAMPLES = 401  # of K in the Hankel matrix
+_PATIENCE = 8  # orders without progress; the way to a good order is not monotonic
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,59 +101,12 @@ def _leading_svd(H: Array, rank: int) -> tuple[Array, Array, Array]:
     return (Q @ U)[:, :rank], s[:rank], Vt[:rank]
 
 
-def identify_by_realization(
-    K: Retardation, blocks: list[list[int]], *, r2: float, order: int | None, max_order: int
-) -> tuple[list[tuple[list[int], Array, Array, Array]], list[str]]:
-    """Return the models of the blocks [(dofs, A, B, C)] and notes on couplings that do not reach `r2`.
-
-    The order of a block is raised until each of its couplings reaches `r2`, at most to its share of `max_order`.
-    """
-    models, notes = [], []
-    for block in blocks:
-        A, B, C, reached = _identify_block(K, block, r2, order, max(2, max_order * len(block) // sum(map(len, blocks))))
-        models.append((block, A, B, C))
-        low = [
-            f"{K.dofs[i]}-{K.dofs[j]} {reached[a, b]:.4f}"
-            for a, i in enumerate(block)
-            for b, j in enumerate(block)
-            if order is None and reached[a, b] < r2
-        ]
-        if low:
-            notes.append(f"R2 {r2:g} not reached with order {len(A)}: {', '.join(low)}; raise max_order or check the data.")
-    return models, notes
-
-
-def _identify_block(
-    K: Retardation, block: list[int], r2: float, order: int | None, max_order: int
-) -> tuple[Array, Array, Array, Array]:
-    part = K.K[:, block][:, :, block]
-    scale = np.sqrt(np.abs(np.einsum("tii->ti", part)).max(axis=0))
-    scaled = part / np.outer(scale, scale)
-    t = np.linspace(0.0, K.duration, min(_SAMPLES, len(K.t)))
-    flat = scaled.reshape(len(K.t), -1)
-    samples = np.stack([np.interp(t, K.t, flat[:, k]) for k in range(flat.shape[1])], axis=1).reshape(len(t), *part.shape[1:])
-    hankel = hankel_realization(samples, t[1], max_order=order or max_order)
-    dofs = tuple(K.dofs[i] for i in block)
-    best: tuple[float, tuple[Array, Array, Array], Array] | None = None
-    for n in [order] if order else range(2, len(hankel.singular_values) + 1):
-        model = _refit(hankel, n, K.t, scaled)
-        reached = r_squared(scaled, StateSpace(*model, dofs).impulse(K.t))
-        worst = float(np.nanmin(reached))
-        if best is None or worst > best[0]:
-            best = (worst, model, reached)
-        if worst >= r2:
-            break
-    assert best is not None
-    A, B, C = best[1]
-    return A, B * scale, C * scale[:, None], best[2]
-
-
-def _refit(hankel: HankelRealization, order: int, t: Array, K: Array) -> tuple[Array, Array, Array]:
-    """Model of that order in real modal form, its outputs refitted to K(t) by least squares with poles and inputs fixed."""
-    A, B, C = modal_form(*hankel.continuous(order))
-    m = K.shape[1]
-    columns = StateSpace(A, B, np.zeros((m, order)), tuple(map(str, range(m)))).states(t)  # (n_t, n, m)
-    regressors = columns.transpose(0, 2, 1).reshape(-1, order)
-    targets = K.transpose(0, 2, 1).reshape(-1, m)
-    C = np.linalg.lstsq(regressors, targets, rcond=None)[0].T
-    return A, B, C
+def identify_by_realization(target: Impulse, *, r2: float, order: int | None, limit: int) -> tuple[Trial, Array]:
+    """Return the model of a block by realization theory, of the lowest order that reaches `r2`, the outputs refitted to K."""
+    t = np.linspace(0.0, target.t[-1], min(_SAMPLES, len(target.t)))
+    flat = target.K.reshape(len(target.t), -1)
+    samples = np.stack([np.interp(t, target.t, column) for column in flat.T], axis=1).reshape(len(t), *target.K.shape[1:])
+    hankel = hankel_realization(samples, t[1], max_order=order or limit)
+    sizes = [order] if order else range(2, len(hankel.singular_values) + 1)
+    trials = (target.outputs(*modal_form(*hankel.continuous(n))[:2]) for n in sizes)
+    return raise_order(target, trials, r2, patience=_PATIENCE)
