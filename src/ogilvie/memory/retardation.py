@@ -152,7 +152,7 @@ def retardation(
     Raises
     ------
     InputError
-        Fewer than four frequencies, non-positive duration or step, damping that is zero everywhere.
+        Coefficients at forward speed, fewer than four frequencies, non-positive duration or step, damping that is zero everywhere.
 
     Notes
     -----
@@ -174,6 +174,11 @@ def retardation(
     >>> K.K.shape, bool(abs(K.K[10, 0, 0]) < 0.01)  # K(1) = 0
     ((201, 1, 1), True)
     """
+    if hydro.attrs.get("speed", 0.0) != 0.0:
+        raise InputError(
+            f"retardation: coefficients at zero speed expected, speed {hydro.attrs['speed']:.4g} m/s found. At speed the damping does "
+            f"not vanish at infinite frequency and this version does not split it off; use zero-speed coefficients."
+        )
     omega_all, A_all, B_all = hydro.omega.values, hydro.added_mass.values, hydro.radiation_damping.values
     mask = _mask(frequencies, omega_all, B_all)
     omega, A, B = omega_all[mask], A_all[mask], B_all[mask]

@@ -1,0 +1,91 @@
+"""Integral equations at one wavenumber: from influence matrices to force vectors (kernel: arrays and floats only).
+
+A force vector g_i gives the force on the body in dof i that any normal velocity v on the hull makes:
+
+    integral of n_i phi dS = sum over all panels of g_i v,   phi = D^-1 S v  (direct method: D phi = S v).
+
+It is the solution of the transposed equation, g_i = S^T D^-T (n_i dS), and depends on the hull, the wavenumber and the depth
+alone. Radiation is v = n_j, diffraction v = -d phi_0/d n for any direction of the waves: no further equation is solved. The
+two are consistent to rounding, and six right sides serve all directions and all speeds.
+
+With planes of symmetry the equations fall apart into one for each combination of parities, of a half or a quarter of the size.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ogilvie.errors import ConvergenceError
+from ogilvie.hydro.bem_panels import HullPanels
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+#: Mirror signs (3,) of the receiving copy -> (S, D), each (n, n): potential at that copy's centres due to sources and dipoles
+#: on the stored panels; the free term is in D of the first copy.
+Influence = Callable[[Array], tuple[Complex, Complex]]
+
+
+def force_vectors(panels: HullPanels, influence: Influence) -> Complex:
+    """Return g: integral of n_i phi dS = sum over copies c and panels p of dof_signs[c, i] g[i, p] v[c, p].
+
+    Parameters
+    ----------
+    panels : HullPanels
+    influence : callable
+        See :data:`Influence`.
+
+    Returns
+    -------
+    (6, n_hull) complex array
+        m3 (translations) or m4 (rotations) per unit of normal velocity, in the time convention of `influence`.
+
+    Raises
+    ------
+    ConvergenceError
+        The influence matrices hold NaN.
+
+    Notes
+    -----
+    The lid carries an unknown potential and no velocity.
+    """
+    from scipy.linalg import lu_factor, lu_solve
+
+    loads = np.zeros((6, panels.n_hull + panels.n_lid))
+    loads[:, : panels.n_hull] = panels.modes * panels.hull.areas
+    signs, dofs = _parities(panels.dof_signs)
+    sums = _sums_over_copies(panels.images, signs, influence)
+    g = np.empty((6, panels.n_hull), dtype=complex)
+    for i, S, D in zip(dofs, *sums, strict=True):
+        lu = lu_factor(D, overwrite_a=True, check_finite=False)
+        y = lu_solve(lu, loads[i].T.astype(complex), trans=1, check_finite=False)
+        g[i] = (S.T @ y)[: panels.n_hull].T
+    return g
+
+
+def _parities(dof_signs: Array) -> tuple[Array, list[NDArray[np.int64]]]:
+    """Return the distinct columns of (n_c, 6) signs as rows, and the dofs that have each."""
+    distinct, index = np.unique(dof_signs, axis=1, return_inverse=True)
+    return distinct.T, [np.flatnonzero(index.ravel() == k) for k in range(distinct.shape[1])]
+
+
+def _sums_over_copies(images: Array, parities: Array, influence: Influence) -> tuple[list[Complex], list[Complex]]:
+    """Return for each parity the sums over the copies of sign * S and of sign * D."""
+    S: list[Complex] = []
+    D: list[Complex] = []
+    for c, mirror in enumerate(images):
+        s, d = influence(mirror)
+        if not (np.all(np.isfinite(s)) and np.all(np.isfinite(d))):
+            raise ConvergenceError(
+                "solve_bem: the influence matrices hold NaN or infinite numbers. Panels may overlap or have no area; "
+                "look at the mesh with ogilvie.mesh.inspect.check_mesh."
+            )
+        if c == 0:
+            S, D = [s, *(s.copy() for _ in parities[1:])], [d, *(d.copy() for _ in parities[1:])]
+            continue
+        add = [np.add if sign > 0.0 else np.subtract for sign in parities[:, c]]
+        for k, operation in enumerate(add):
+            operation(S[k], s, out=S[k])
+            operation(D[k], d, out=D[k])
+    return S, D

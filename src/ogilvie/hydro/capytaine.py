@@ -1,0 +1,268 @@
+"""Radiation and diffraction by a panel method (the only importer of capytaine).
+
+Capytaine supplies the influence of the panels on each other through the Green function of the free surface; boundary
+conditions, equations, symmetry, forces, forward speed and the cache are those of this package.
+"""
+
+import logging
+import shutil
+import warnings
+import zipfile
+import zlib
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
+from functools import partial
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+
+from ogilvie.body import RigidBody
+from ogilvie.errors import ConvergenceError, InputError, OgilvieError, OgilvieWarning
+from ogilvie.hydro.bem_case import Case, Irregular, make_case, warn_if_coarse
+from ogilvie.hydro.bem_depth import exponentials
+from ogilvie.hydro.bem_kernel import force_vectors
+from ogilvie.hydro.bem_panels import Facets
+from ogilvie.hydro.bem_result import assemble
+from ogilvie.hydro.bem_store import SolutionStore
+from ogilvie.hydro.cache import cache_folder, fill_folder
+from ogilvie.hydro.progress import tracked
+from ogilvie.hydro.threads import available_cores, library_threads
+from ogilvie.mesh.panels import PanelMesh
+from ogilvie.units import GRAVITY, SEA_WATER
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+#: Raised whenever the same problem would give other numbers than before: cached results of other revisions are not used.
+REVISION = 1
+
+#: Linear algebra with up to so many unknowns is faster on one thread.
+SMALL = 800
+
+#: Points of the integral that Capytaine tabulates; 1001 (its default) take four times as long and move A and B by 5e-5.
+_TABLE = {"tabulation_nb_integration_points": 251}
+
+
+def solve_bem(
+    hull: PanelMesh,
+    body: RigidBody | None = None,
+    *,
+    omega: ArrayLike,
+    wave_direction: ArrayLike = (np.pi,),
+    rho: float = SEA_WATER,
+    g: float = GRAVITY,
+    water_depth: float = np.inf,
+    speed: float = 0.0,
+    irregular_frequencies: Irregular = "remove",
+    progress: bool | None = None,
+    cache: bool = True,
+    workers: int | None = None,
+) -> xr.Dataset:
+    """Return added mass, damping and wave forces of a hull by the boundary element method.
+
+    Parameters
+    ----------
+    hull : PanelMesh
+        Wetted hull (z <= 0, normals into the fluid); its symmetry is used. Its own `lid` is used if it has one.
+    body : RigidBody, optional
+        Adds `inertia_matrix` and `hydrostatic_stiffness` (gravity included) to the result.
+    omega : (n_w,) array
+        Frequencies, rad/s. At forward speed: of oscillation for added mass and damping, of the incident waves for the forces.
+    wave_direction : (n_b,) array
+        Directions that the waves travel to, rad; pi is head seas.
+    rho, g : float
+        kg/m3, m/s2.
+    water_depth : float
+        m; inf for deep water.
+    speed : float
+        Forward speed, m/s.
+    irregular_frequencies : {"remove", "keep"}
+        Remove them by panels on the waterplane inside the hull (made here if the hull brings none), or leave them.
+    progress : bool, optional
+        Show a progress bar; by default for long work on a terminal.
+    cache : bool
+        Keep results on disk, wavenumber by wavenumber, and use those kept (see :mod:`ogilvie.hydro.cache`). An interrupted
+        run goes on where it stopped; other directions, speeds or densities of a solved hull cost next to nothing.
+    workers : int, optional
+        Threads; by default all cores, or OMP_NUM_THREADS.
+
+    Returns
+    -------
+    xarray.Dataset
+        Obeys :mod:`ogilvie.hydro.schema`: added_mass, radiation_damping, added_mass_inf, added_mass_zero (deep water at zero
+        speed only: infinite otherwise), excitation_force and its parts Froude_Krylov_force and diffraction_force; everything
+        about O. Attributes name the numbers of panels and the frequency that they resolve, `omega_resolved`.
+
+    Raises
+    ------
+    InputError
+        The hull cannot be solved (above water, normals inward), or an argument is out of range.
+    ConvergenceError
+        The Green function cannot be evaluated.
+
+    Warns
+    -----
+    OgilvieWarning
+        Frequencies above those that the panels resolve; damaged entries of the cache.
+
+    Notes
+    -----
+    Direct method: the potential on flat panels with one unknown each, second order in the panel size. Interior panels on z = 0
+    with the same equations remove the irregular frequencies.
+
+    Forward speed: the Green function of zero speed at the frequency of encounter, uniform flow past the hull and Tuck's theorem
+    (:mod:`ogilvie.hydro.bem_forces`), as in the strip theory of Salvesen, Tuck and Faltinsen but in three dimensions. Good for
+    slender hulls at moderate speed and tau = U omega_e/g well above 1/4. The force of overtaken waves oscillates with the
+    negative omega_e = omega - k U cos(direction). Damping tends to `radiation_damping_inf` at high frequency then.
+
+    References
+    ----------
+    M. Ancellin and F. Dias, Capytaine, Journal of Open Source Software 4 (2019) 1341; C.-H. Lee and J. N. Newman, Computation
+    of wave effects using the panel method (2005); N. Salvesen, E. O. Tuck and O. Faltinsen, SNAME 78 (1970) 250.
+
+    Examples
+    --------
+    >>> hull = PanelMesh([[2.0, 0, -1], [2, 1, -1], [0, 1, -1], [0, 0, -1], [2, 0, 0], [2, 1, 0], [0, 1, 0]],
+    ...                  [[0, 3, 2, 1], [1, 2, 6, 5], [0, 1, 5, 4]], symmetry="xz+yz")
+    >>> hydro = solve_bem(hull, omega=[1.0], rho=1000.0, cache=False, workers=1)
+    >>> hydro.added_mass.shape, bool(hydro.radiation_damping.sel(influenced_dof="heave", radiating_dof="heave") > 0)
+    ((1, 6, 6), True)
+    """
+    case = make_case(
+        hull,
+        omega=omega,
+        wave_direction=wave_direction,
+        rho=rho,
+        g=g,
+        water_depth=water_depth,
+        speed=speed,
+        irregular_frequencies=irregular_frequencies,
+    )
+    if workers is not None and (isinstance(workers, bool) or not isinstance(workers, int) or workers < 1):
+        raise InputError(f"solve_bem: workers: a number of threads >= 1 or None expected, {workers!r} found.")
+    resolved = warn_if_coarse(case)
+    vectors = _solutions(
+        case, store=SolutionStore(case, settings=_settings()) if cache else None, progress=progress, workers=workers
+    )
+    attrs = {"source": f"ogilvie solve_bem, Capytaine {_capytaine_version()}", "omega_resolved": resolved}
+    return assemble(case, vectors, body=body, attrs=attrs)
+
+
+def _solutions(case: Case, *, store: SolutionStore | None, progress: bool | None, workers: int | None) -> dict[float, Complex]:
+    """Return the force vectors at every wavenumber of the case, from the store as far as they are there."""
+    kept = {k: store.load(k) if store else None for k in case.wavenumbers}
+    found = {k: g for k, g in kept.items() if g is not None}
+    missing = [k for k in case.wavenumbers if k not in found]
+    if missing:
+        green = _green_function()
+        with _threads(case, workers or available_cores()):
+            for k in tracked(missing, show=progress, title=f"solving {case.panels.hull.name}"):
+                panels = case.panels_at(k)
+                found[k] = force_vectors(panels, partial(_influence, green, panels.facets, k, case.depth)).conj()
+                if store:
+                    store.save(k, found[k])
+    if store:
+        store.finish()
+    return found
+
+
+def _threads(case: Case, workers: int) -> AbstractContextManager[None]:
+    small = case.panels.n_hull + case.panels.n_lid <= SMALL
+    return library_threads(
+        openmp="capytaine.green_functions.Delhommeau_float64", integrals=workers, algebra=1 if small else workers
+    )
+
+
+def _influence(green: Any, facets: Facets, k: float, depth: float, mirror: Array) -> tuple[Complex, Complex]:
+    """Return S and D at the mirrored centres due to the stored panels, in Capytaine's convention exp(-i omega t)."""
+    from capytaine.green_functions.abstract_green_function import GreenFunctionEvaluationError
+
+    receivers = SimpleNamespace(faces_centers=facets.centers * mirror, nb_faces=len(facets.faces))
+    try:
+        return green.evaluate(
+            receivers,
+            _sources(facets),
+            wavenumber=k,
+            water_depth=depth,
+            adjoint_double_layer=False,
+            diagonal_term_in_double_layer=bool(np.all(mirror > 0.0)),
+        )
+    except (GreenFunctionEvaluationError, NotImplementedError) as e:
+        raise ConvergenceError(
+            f"solve_bem: the Green function cannot be evaluated at k = {k:.6g} rad/m in {depth:.6g} m of water ({e}). "
+            "Leave this frequency out."
+        ) from e
+
+
+def _sources(facets: Facets) -> Any:
+    """Return the panels under the names that Capytaine's Green functions read from a mesh."""
+    return SimpleNamespace(
+        vertices=facets.vertices,
+        faces=facets.faces,
+        nb_faces=len(facets.faces),
+        faces_centers=facets.centers,
+        faces_normals=facets.normals,
+        faces_areas=facets.areas,
+        faces_radiuses=facets.radii,
+        quadrature_points=(facets.centers[:, None, :], facets.areas[:, None]),
+    )
+
+
+def _settings() -> str:
+    return f"revision {REVISION}; capytaine {_capytaine_version()}; {sorted(_TABLE.items())}"
+
+
+def _capytaine_version() -> str:
+    """Return the installed version without importing it (3 s)."""
+    try:
+        return version("capytaine")
+    except PackageNotFoundError:
+        raise OgilvieError(
+            "solve_bem: Capytaine expected, not installed (there is no ready-made package for Linux on ARM). Install it with "
+            "'pip install capytaine', or read coefficients of another code with read_hydro."
+        ) from None
+
+
+def _green_function() -> Any:
+    """Return Capytaine's Green function with its table (made once, 5 s, and kept) and our own fit for finite depth."""
+    with _root_logger_untouched():
+        from capytaine import Delhommeau
+    folder = cache_folder() / "green" / f"capytaine-{_capytaine_version()}-{_TABLE['tabulation_nb_integration_points']}"
+    log = logging.getLogger("capytaine")
+    level = log.level
+    log.setLevel(logging.ERROR)  # it announces the table as a warning
+    try:
+        if not folder.is_dir():
+            fill_folder(folder, lambda new: Delhommeau(**_TABLE, tabulation_cache_dir=str(new)))
+        green = _load_table(folder, Delhommeau)
+    finally:
+        log.setLevel(level)
+    green.find_best_exponential_decomposition = exponentials
+    return green
+
+
+def _load_table(folder: Path, green_function: Callable[..., Any]) -> Any:
+    if not folder.is_dir():
+        return green_function(**_TABLE, tabulation_cache_dir=None)
+    try:
+        return green_function(**_TABLE, tabulation_cache_dir=str(folder))
+    except (OSError, zipfile.BadZipFile, zlib.error) as e:
+        warnings.warn(f"solve_bem: the table in {folder} cannot be read ({e}); it is computed again.", OgilvieWarning)
+        shutil.rmtree(folder, ignore_errors=True)
+        return green_function(**_TABLE, tabulation_cache_dir=None)
+
+
+@contextmanager
+def _root_logger_untouched() -> Iterator[None]:
+    """Keep the import of capytaine from installing a handler on the root logger."""
+    guard = logging.NullHandler()
+    logging.root.addHandler(guard)
+    try:
+        yield
+    finally:
+        logging.root.removeHandler(guard)

@@ -1,0 +1,73 @@
+"""How many threads the libraries below use.
+
+Capytaine's integrals and the linear algebra of numpy and scipy each start as many threads as there are cores. The integrals
+gain by it; on small matrices the threads of the linear algebra only wait for each other (four times the work, measured).
+"""
+
+import ctypes
+import os
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from importlib import import_module
+
+#: Extension modules and the names under which their linear algebra sets and tells its number of threads.
+BLAS = (
+    ("scipy.linalg._flapack", "scipy_openblas_set_num_threads", "scipy_openblas_get_num_threads"),
+    ("numpy.linalg._umath_linalg", "scipy_openblas_set_num_threads64_", "scipy_openblas_get_num_threads64_"),
+)
+
+
+def available_cores() -> int:
+    """Return the number of threads to use: OMP_NUM_THREADS if set, else the cores that this process may run on.
+
+    Examples
+    --------
+    >>> available_cores() >= 1
+    True
+    """
+    given = os.environ.get("OMP_NUM_THREADS", "").split(",")[0].strip()
+    if given.isdigit() and int(given) > 0:
+        return int(given)
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+@contextmanager
+def library_threads(*, openmp: str, integrals: int, algebra: int) -> Iterator[None]:
+    """Let the OpenMP library of an extension module and the linear algebra use so many threads, and put both back.
+
+    Libraries that cannot be reached from here (on Windows, or builds other than the wheels) keep their own numbers.
+
+    Examples
+    --------
+    >>> with library_threads(openmp="math", integrals=1, algebra=1):
+    ...     pass
+    """
+    with ExitStack() as stack:
+        stack.enter_context(_limited(openmp, "omp_set_num_threads", "omp_get_max_threads", integrals))
+        for library in BLAS:
+            stack.enter_context(_limited(*library, algebra))
+        yield
+
+
+@contextmanager
+def _limited(module: str, setter: str, getter: str, threads: int) -> Iterator[None]:
+    tell, ask = _function(module, setter), _function(module, getter)
+    if tell is None or ask is None:
+        yield
+        return
+    before = ask()
+    tell(threads)
+    try:
+        yield
+    finally:
+        tell(before)
+
+
+def _function(module: str, name: str) -> Callable[..., int] | None:
+    try:
+        path = import_module(module).__file__
+        return None if path is None else getattr(ctypes.CDLL(path), name)
+    except (ImportError, OSError, AttributeError):
+        return None
