@@ -1,5 +1,7 @@
 """State-space models of the fluid memory: exact recovery, structure, real vessels, bad input."""
 
+import functools
+
 import numpy as np
 import pytest
 import scipy.linalg
@@ -78,12 +80,18 @@ def vessel(shared_reference, name):
     )
 
 
+@functools.cache
+def fitted(shared_reference, name):
+    """K of a vessel and its model by default settings; computed once for all tests."""
+    K = og.retardation(vessel(shared_reference, name))
+    return K, og.identify(K)
+
+
 @pytest.mark.filterwarnings("default::ogilvie.errors.OgilvieWarning")
 @pytest.mark.parametrize("name", VESSELS)
 def test_real_vessels(shared_reference, name):
     """Stable, passive, reported figures true, shortfalls said; the other methods are in test_methods.py."""
-    K = og.retardation(vessel(shared_reference, name))
-    model = og.identify(K, r2=0.99)
+    K, model = fitted(shared_reference, name)
     assert model.is_stable
     assert np.allclose(model.r2, r_squared(K.K, model.impulse(K.t)), equal_nan=True)
     assert model.is_passive
@@ -94,8 +102,7 @@ def test_real_vessels(shared_reference, name):
 @pytest.mark.filterwarnings("default::ogilvie.errors.OgilvieWarning")
 @pytest.mark.parametrize("name", VESSELS)
 def test_oscillators_are_passive_reciprocal_and_silent_at_zero_frequency(shared_reference, name):
-    K = og.retardation(vessel(shared_reference, name))
-    model = og.identify(K)
+    _, model = fitted(shared_reference, name)
     omega = np.concatenate([[0.0], np.geomspace(1e-4, 1e3, 4000)])
     K_hat = model.transfer(omega)
     peak = np.abs(K_hat).max()

@@ -111,6 +111,14 @@ def test_bad_arguments(change, words):
         og.retardation(h, **change)
 
 
+def test_coefficients_at_speed_are_refused():
+    w = np.linspace(0.1, 1, 9)
+    A = np.ones((9, 1, 1))
+    h = og.hydro_from_arrays(omega=w, added_mass=A, radiation_damping=A, speed=5.0, dofs=("heave",))
+    with pytest.raises(og.InputError, match="zero speed"):
+        og.retardation(h)
+
+
 def test_single_frequency_and_zero_damping_are_refused():
     one = og.hydro_from_arrays(
         omega=[1.0], added_mass=np.ones((1, 1, 1)), radiation_damping=np.ones((1, 1, 1)), dofs=("heave",)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ogilvie.errors import InputError, OgilvieWarning
+from ogilvie.hydro.threads import library_threads
 from ogilvie.memory.blocks import coupled_blocks, r_squared
 from ogilvie.memory.common_poles import condense
 from ogilvie.memory.frequency import identify_by_frequency
@@ -117,15 +118,16 @@ def identify(
     m, notes = len(K.dofs), [n for n in K.notes if n.startswith("damping not positive")]
     M = None if mass is None else check_square("mass", mass, m)
     C = None if stiffness is None else check_square("stiffness", stiffness, m)
-    if method == "oscillators":
-        models, A_inf, said = identify_passive(K, blocks, r2=r2, order=order, max_order=max_order, mass=M, stiffness=C)
-    elif passive:
-        poles = [trial.poles for _, trial, _ in _found(K, blocks, method, r2, order, max_order)]
-        models, A_inf, said = identify_passive_from(
-            K, blocks, poles, r2=r2, order=order, max_order=max_order, mass=M, stiffness=C
-        )
-    else:
-        models, A_inf, said = _as_published(K, blocks, method, r2, order, max_order)
+    with library_threads(openmp="math", integrals=1, algebra=1):  # small matrices: threads would only wait for each other
+        if method == "oscillators":
+            models, A_inf, said = identify_passive(K, blocks, r2=r2, order=order, max_order=max_order, mass=M, stiffness=C)
+        elif passive:
+            poles = [trial.poles for _, trial, _ in _found(K, blocks, method, r2, order, max_order)]
+            models, A_inf, said = identify_passive_from(
+                K, blocks, poles, r2=r2, order=order, max_order=max_order, mass=M, stiffness=C
+            )
+        else:
+            models, A_inf, said = _as_published(K, blocks, method, r2, order, max_order)
     for note in said:
         warnings.warn(f"identify: {note}", OgilvieWarning, stacklevel=2)
     A, B, C_out = stack_blocks([(dofs, *modal_form(a, b, c)) for dofs, a, b, c in models], m)
