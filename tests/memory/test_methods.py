@@ -81,7 +81,7 @@ def test_a_known_model_is_found_again(method, passive):
         assert np.abs(np.sort(np.abs(found.poles)) - np.sort(np.abs(true.poles))).max() < 0.15
 
 
-#: As published on every vessel; the passive refit, the same code for all methods, on two (the default sees all in test_identify).
+#: As published on every vessel; the passive refit, one code for all methods, on two (the default sees all in test_identify).
 CASES = [(n, m, False) for n in VESSELS for m in PUBLISHED] + [(n, m, True) for n in ("tanker", "semisub") for m in PUBLISHED]
 
 

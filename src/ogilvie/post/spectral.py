@@ -61,7 +61,7 @@ def spectral_density(
     >>> round(float(S.density.integrate("omega")), 3), round(float(S.omega[S.density.values.argmax()]), 2)
     (0.5, 0.8)
     """
-    from scipy.stats import chi2
+    from scipy.special import chdtri
 
     series = as_series(data, dt=dt, skip=skip, variable=variable)
     step, n_t = time_step(series), series.sizes["time"]
@@ -89,6 +89,6 @@ def spectral_density(
     ).mean("realisation")
     count = len(begins) * series.sizes["realisation"]
     dof = 2.0 * count / (1.0 + (2.0 * _OVERLAP if len(begins) > 1 else 0.0))
-    low, high = dof / chi2.ppf([0.5 + 0.5 * confidence, 0.5 - 0.5 * confidence], dof)
+    low, high = dof / chdtri(dof, [0.5 - 0.5 * confidence, 0.5 + 0.5 * confidence])
     factors = xr.DataArray([low, high], dims="bound", coords={"bound": ["low", "high"]})
     return xr.Dataset({"density": density, "interval": density * factors}, attrs={"dof": dof, "confidence": confidence})

@@ -167,25 +167,25 @@ def _power(x: Array) -> Array:
 
 
 def _mean_interval(x: Array, mean: float, samples: float, dt: float, confidence: float) -> Array:
-    from scipy.stats import t as student
+    from scipy.special import stdtrit
 
     n_r, n_t = x.shape
     lowest = int(np.clip(round(samples / (20.0 * n_r)), 3, n_t // 4))
     density = dt / n_t * float(_power(x)[:, :lowest].mean())  # per Hz, two-sided, at zero frequency
     deviation = np.sqrt(density / (n_r * n_t * dt))
-    return mean + np.array([-1.0, 1.0]) * deviation * student.ppf(0.5 + 0.5 * confidence, 2 * lowest * n_r)
+    return mean + np.array([-1.0, 1.0]) * deviation * stdtrit(2 * lowest * n_r, 0.5 + 0.5 * confidence)
 
 
 def _std_interval(std: float, samples: float, confidence: float) -> Array:
-    from scipy.stats import chi2
+    from scipy.special import chdtri
 
-    return std * np.sqrt(samples / chi2.ppf([0.5 + 0.5 * confidence, 0.5 - 0.5 * confidence], samples))
+    return std * np.sqrt(samples / chdtri(samples, [0.5 - 0.5 * confidence, 0.5 + 0.5 * confidence]))
 
 
 def _student(values: Array, confidence: float) -> Array:
     """Return the interval of the mean of independent values."""
-    from scipy.stats import t as student
+    from scipy.special import stdtrit
 
     n = len(values)
-    reach = student.ppf(0.5 + 0.5 * confidence, n - 1) * values.std(ddof=1) / np.sqrt(n)
+    reach = stdtrit(n - 1, 0.5 + 0.5 * confidence) * values.std(ddof=1) / np.sqrt(n)
     return values.mean() + np.array([-1.0, 1.0]) * reach

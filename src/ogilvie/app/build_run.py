@@ -1,0 +1,203 @@
+"""From a case to its sea, its vessel, the simulation, and what the frequency domain says about it."""
+
+import warnings
+from math import radians
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ogilvie.app.build import mooring_stiffness
+from ogilvie.app.case import Case
+from ogilvie.errors import InputError, OgilvieWarning
+from ogilvie.hydro.schema import DOFS
+from ogilvie.units import knot
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from ogilvie.body import RigidBody
+    from ogilvie.memory.retardation import Retardation
+    from ogilvie.memory.statespace import StateSpace
+    from ogilvie.sim.vessel import Vessel
+    from ogilvie.waves.field import Sea
+    from ogilvie.waves.spectrum import Spectrum
+    from ogilvie.waves.spreading import Spreading
+
+Array = NDArray[np.float64]
+
+
+def make_spectrum(case: Case) -> "Spectrum | None":
+    """Return the wave spectrum of a case, or None for regular waves and calm water."""
+    from ogilvie.waves import spectra
+
+    s = case.sea
+    if s.spectrum in ("regular", "calm"):
+        return None
+    hs, tp = float(s.hs or 0.0), float(s.tp or 0.0)
+    if s.spectrum == "jonswap":
+        return spectra.jonswap(hs=hs, tp=tp, gamma=s.gamma)
+    makers: dict[str, Any] = {
+        "bretschneider": spectra.bretschneider,
+        "pierson-moskowitz": spectra.pierson_moskowitz,
+        "torsethaugen": spectra.torsethaugen,
+    }
+    return makers[s.spectrum](hs=hs, tp=tp)
+
+
+def make_spreading(case: Case) -> "Spreading | None":
+    """Return the spreading of a case, or None for long-crested waves."""
+    from ogilvie.waves.spreading import spreading
+
+    return None if case.sea.spreading is None else spreading(s=case.sea.spreading)
+
+
+#: Shares of the sea's variance that the coefficients' frequencies may leave out: without a word (Hs 0.5 % low), with a warning.
+LOST, LOST_AT_MOST = 0.01, 0.05
+
+
+def make_sea(case: Case, spectrum: "Spectrum | None", hydro: "xr.Dataset") -> "Sea | None":
+    """Return the sea of a case with one realisation per seed, or None for calm water.
+
+    Raises
+    ------
+    InputError
+        More than 5 % of the variance lies outside the frequencies of the coefficients.
+    """
+    from ogilvie.waves.sea import irregular, regular
+
+    s, n = case.sea, case.simulation.realisations
+    if s.spectrum == "calm":
+        return None
+    depth, g, b = case.water.depth, case.water.g, radians(s.direction_deg)
+    if spectrum is None:
+        return regular(direction=b, amplitude=s.amplitude, period=s.period, depth=depth, g=g)
+    return irregular(
+        spectrum,
+        direction=b,
+        spreading=make_spreading(case),
+        n=s.components,
+        duration=None if s.components is not None else case.simulation.duration,
+        seed=range(s.seed, s.seed + n),
+        method=s.method,
+        random=s.random,
+        omega_range=_within(spectrum, hydro.omega.values),
+        depth=depth,
+        g=g,
+    )
+
+
+def _within(spectrum: "Spectrum", omega: Array) -> tuple[float, float]:
+    """Return the frequencies between which the sea is made: nearly all of the spectrum, within the coefficients."""
+    first, last = spectrum.quantile([1e-4, 0.998])
+    low, high = max(float(first), float(omega[0])), min(float(last), float(omega[-1]))
+    below, above = spectrum.cumulative([low, high]) if low < high else (0.0, 0.0)
+    lost = 1.0 - (above - below) / spectrum.m0
+    what = f"{100 * lost:.2g} % of the variance lies outside the coefficients' {omega[0]:.4g}..{omega[-1]:.4g} rad/s"
+    if lost > LOST_AT_MOST:
+        raise InputError(
+            f"sea: {what}; at most {100 * LOST_AT_MOST:g} % expected. Extend the coefficients (omega_max) or change tp."
+        )
+    if lost > LOST:
+        warnings.warn(f"sea: {what} and is left out; Hs is {100 * (1 - (1 - lost) ** 0.5):.2g} % low.", OgilvieWarning)
+    return low, high
+
+
+def make_vessel(case: Case, body: "RigidBody", hydro: "xr.Dataset", K: "Retardation", ssm: "StateSpace | None") -> "Vessel":
+    """Return the vessel with the loads of a case."""
+    from ogilvie.loads.excitation import WaveExcitation
+    from ogilvie.loads.mooring import LinearMooring
+    from ogilvie.loads.radiation import Convolution, StateSpaceRadiation
+    from ogilvie.loads.restoring import LinearRestoring
+    from ogilvie.loads.viscous import LinearDamping
+    from ogilvie.sim.vessel import Vessel
+
+    loads: list[Any] = [LinearRestoring(hydro), Convolution(K) if ssm is None else StateSpaceRadiation(ssm)]
+    if case.sea.spectrum != "calm":
+        loads.append(WaveExcitation(hydro))
+    stiffness = mooring_stiffness(case, body, hydro)
+    if stiffness.any():
+        loads.append(LinearMooring(stiffness))
+    if case.loads.damping_ratio.given:
+        loads.append(LinearDamping(ratio=case.loads.damping_ratio.given))
+    return Vessel(body, loads=tuple(loads), speed=case.vessel.speed_knots * knot, heading=radians(case.vessel.heading_deg))
+
+
+def simulate_case(case: Case, vessel: "Vessel", sea: Any, *, progress: bool | None = None) -> "xr.Dataset":
+    """Return the simulation of a case, marked with the case it belongs to."""
+    from ogilvie.sim.simulate import simulate
+
+    s = case.simulation
+    run = simulate(
+        vessel,
+        sea,
+        duration=s.duration,
+        dt=s.dt,
+        ramp=s.ramp,
+        initial=None if s.initial is None else {"eta": s.initial.eta},
+        method=s.method,
+        output_step=s.output_step,
+        progress=progress,
+    )
+    run.attrs |= {"title": case.title, "case_digest": case.digest, "case_toml": case.text}
+    return run
+
+
+def skipped(case: Case) -> float:
+    """Return the start of the statistics, s: as given, else after the ramp, or after a tenth where a run starts from a pose."""
+    s = case.simulation
+    if s.skip is not None:
+        return s.skip
+    return 0.1 * s.duration if s.initial is not None else 2 * s.ramp if 2 * s.ramp < s.duration else s.ramp
+
+
+def frequency_domain(case: Case, vessel: "Vessel", hydro: "xr.Dataset", body: Any, spectrum: Any) -> dict[str, Any]:
+    """Responses with the damping and springs of the vessel, and what they say about the sea of the case."""
+    if "excitation_force" not in hydro:
+        return {}
+    from ogilvie.hydro.rao import rao
+    from ogilvie.hydro.response import response_spectrum, response_statistics
+    from ogilvie.sim.system import assemble
+
+    system = assemble(vessel)
+    of_data = np.ix_(*(2 * [[DOFS.index(str(d)) for d in hydro.influenced_dof.values]]))
+    extra = system.stiffness[of_data] - hydro.hydrostatic_stiffness.values
+    response = rao(finer(hydro), body, stiffness=extra, damping=system.damping[of_data])
+    out: dict[str, Any] = {"response": response}
+    if spectrum is not None:
+        b = np.radians(case.sea.direction_deg - case.vessel.heading_deg)
+        spread = make_spreading(case)
+        try:
+            out["expected"] = response_statistics(response, spectrum, direction=b, spreading=spread)
+            if case.vessel.speed_knots == 0.0:
+                out["expected_spectra"] = response_spectrum(response, spectrum, direction=b, spreading=spread)
+        except InputError as error:
+            warnings.warn(f"no comparison with the frequency domain: {error}", OgilvieWarning)
+    return out
+
+
+def finer(hydro: "xr.Dataset", *, count: int = 400) -> "xr.Dataset":
+    """Return coefficients interpolated to more frequencies, so that resonances between those of the data are seen.
+
+    Added mass and damping monotonically (PCHIP), excitation by cubic splines, as the time domain has it.
+    """
+    if hydro.sizes["omega"] >= count:
+        return hydro
+    from scipy.interpolate import CubicSpline, PchipInterpolator
+
+    w = np.linspace(float(hydro.omega[0]), float(hydro.omega[-1]), count)
+    w[0], w[-1] = hydro.omega.values[0], hydro.omega.values[-1]
+    ways = {"added_mass": PchipInterpolator, "radiation_damping": PchipInterpolator, "excitation_force": CubicSpline}
+    made = {key: (hydro[key].dims, way(hydro.omega.values, hydro[key].values)(w)) for key, way in ways.items() if key in hydro}
+    return hydro.drop_dims("omega").assign_coords(omega=w).assign(made)
+
+
+def statistics(case: Case, run: "xr.Dataset") -> "xr.Dataset | None":
+    """Return the statistics of the motions, or None where a run was cut too short for them."""
+    from ogilvie.post.stats import summary
+
+    skip = skipped(case)
+    if run.sizes["time"] < 16 or float(run.time[-1]) <= skip:
+        warnings.warn("no statistics: the run ended before enough of it was done", OgilvieWarning)
+        return None
+    return summary(run, skip=skip)

@@ -1,0 +1,24 @@
+"""Figures: each function returns a matplotlib ``Figure``, with units on every axis (degrees for angles), and takes ``save``."""
+
+from ogilvie.post.plot._hull import hull
+from ogilvie.post.plot._motions import motions, response_spectra
+from ogilvie.post.plot._overview import overview
+from ogilvie.post.plot._radiation import coefficients, retardation
+from ogilvie.post.plot._style import custom, show, to_png, write
+from ogilvie.post.plot._waves import excitation, rao, spectrum
+
+__all__ = [
+    "coefficients",
+    "custom",
+    "excitation",
+    "hull",
+    "motions",
+    "overview",
+    "rao",
+    "response_spectra",
+    "retardation",
+    "show",
+    "spectrum",
+    "to_png",
+    "write",
+]
