@@ -272,3 +272,30 @@ def test_plot_draws_what_a_file_holds(kind, names, coefficients, box_gdf, tmp_pa
     code, _, _ = call("plot", source, "-o", tmp_path / "f", "--format", "svg")
     assert code == 0
     assert {p.stem for p in Path(tmp_path / "f").glob("*.svg")} == names
+
+
+@pytest.mark.parametrize(
+    ("spoil", "words"),
+    [
+        ("inside out", ("normals", "found")),
+        ("out of the water", ("below", "found")),
+        ("impossible inertia", ("violate the triangle inequality", "Check")),
+        ("negative mass", ("body.mass: -5.0: a number > 0 expected",)),
+        ("holes", ("hull.file", "a file expected, a folder found")),
+    ],
+)
+def test_a_hull_or_body_that_cannot_be(spoil, words, tmp_path, box_text):
+    mesh = og.shapes.box(40.0, 12.0, 4.0, panels=60)
+    mesh = {"inside out": mesh.flipped(), "out of the water": mesh.translated((0.0, 0.0, 9.0))}.get(spoil, mesh)
+    og.write_mesh(mesh, tmp_path / "barge.gdf")
+    text = box_text.replace('shape = "box"\nlength = 40.0\nbeam = 12.0\ndraught = 4.0\npanels = 120', 'file = "barge.gdf"')
+    if spoil == "impossible inertia":
+        text = text.replace("gyradii = [4.0, 11.0, 11.0]", "inertia = [[1e7, 0, 0], [0, 2e7, 0], [0, 0, 9e7]]")
+    if spoil == "negative mass":
+        text = text.replace("kg = 3.0", "kg = 3.0\nmass = -5.0")
+    if spoil == "holes":
+        text = text.replace('"barge.gdf"', '"."')
+    (tmp_path / "ship.toml").write_text(text)
+    message = refused("run", tmp_path / "ship.toml")
+    assert all(word in message for word in words), message
+    assert not (tmp_path / "ship-results").exists()

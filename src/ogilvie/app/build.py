@@ -35,9 +35,11 @@ def make_hull(case: Case) -> "PanelMesh | None":
     h: Any = case.hull  # which keys are there was checked with the case
     if h.file is not None:
         from ogilvie.mesh.files import load_mesh
+        from ogilvie.mesh.inspect import require_usable
 
-        mesh = load_mesh(case.path(h.file))
-        return mesh.immersed(h.draught) if h.draught is not None else mesh.immersed()
+        mesh = load_mesh(case.path(h.file)).immersed(h.draught)
+        require_usable(mesh, purpose="hull.file")
+        return mesh
     from ogilvie.mesh import shapes
 
     makers: dict[str, Any] = {

@@ -3,7 +3,7 @@
 import platform
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 from importlib.metadata import version
@@ -27,11 +27,13 @@ class Workspace:
     folder: Path
     written: list[Path] = field(default_factory=list)
     solving: bool = False
+    new: bool = False
 
     def open(self) -> "Workspace":
         """Make the folder if need be."""
         if self.folder.exists() and not self.folder.is_dir():
             raise NotADirectoryError(20, "Not a directory", str(self.folder))
+        self.new = not self.folder.exists()
         self.folder.mkdir(parents=True, exist_ok=True)
         return self
 
@@ -51,6 +53,10 @@ class Workspace:
             if self.solving:
                 stop.add_note("What was solved is in the cache: the same case goes on from there.")
             raise
+        finally:
+            if self.new and not self.written:
+                with suppress(OSError):
+                    self.folder.rmdir()  # no empty folder is left of work that came to nothing
 
 
 def run_case(case: Case, folder: str | Path, *, progress: bool | None = None) -> Findings:

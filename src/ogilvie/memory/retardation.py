@@ -177,8 +177,8 @@ def retardation(
     """
     if hydro.attrs.get("speed", 0.0) != 0.0:
         raise InputError(
-            f"retardation: coefficients at zero speed expected, speed {hydro.attrs['speed']:.4g} m/s found. At speed the "
-            f"damping does not vanish at infinite frequency and this version does not split it off; use zero-speed coefficients."
+            f"retardation: coefficients at zero speed expected, speed {hydro.attrs['speed']:.4g} m/s found. At speed "
+            f"the damping does not vanish at infinite frequency and this version does not split it off; use zero-speed ones."
         )
     omega_all, A_all, B_all = hydro.omega.values, hydro.added_mass.values, hydro.radiation_damping.values
     mask = _mask(frequencies, omega_all, B_all)
