@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 Array = NDArray[Any]
 
 #: z: no mode of the model is damped less than about this share of critical, so that none can hide between two frequencies.
-OWN_DAMPING = 0.005
+OWN_DAMPING = 0.001
 
 
 @njit(cache=True, nogil=True)

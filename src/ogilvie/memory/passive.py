@@ -14,8 +14,8 @@ from ogilvie.memory.retardation import Retardation
 
 Array = NDArray[Any]
 
-MOTION_TOLERANCE = 0.007  # change of the motion under unit forces at which the order is high enough
-_LOSS = 0.02  # of inertia and stiffness in the compliance
+MOTION_TOLERANCE = 0.0066  # change of the motion under unit forces at which the order is high enough
+_LOSS = 0.01  # of inertia and stiffness in the compliance
 _STUCK = 3  # oscillators without progress after which a coupling is said to fit no causal model
 _ZERO = 1e-3  # of sqrt(spread_ii spread_jj): a coupling below it is zero by symmetry
 
@@ -129,7 +129,7 @@ def _prepare(
 
 
 def _compliance(omega: Array, M: Array, B: Array, C: Array) -> Array:
-    """X (n_w, m, m) of the floating body; a loss of 2 % of inertia and stiffness keeps one resonance from ruling the fit."""
+    """X (n_w, m, m) of the floating body; a loss of 1 % of inertia and stiffness keeps one resonance from ruling the fit."""
     w = omega[:, None, None]
     loss = np.zeros_like(M)
     i = np.arange(len(C))

@@ -31,7 +31,7 @@ class Retardation:
         Added mass at infinite frequency that goes with K, SI.
     dofs : tuple of str
     truncation_error, tail_error, discretisation_error : (m, m) array
-        Estimates as fractions of max |K_ij|: what remains after the last time; what the damping beyond the last frequency
+        Estimates as fractions of the largest K_ij: what remains after the last time; what the damping beyond the last frequency
         may change; what the interpolation between frequencies may change. NaN where K_ij is zero.
     tail_exponent : (m, m) array
         p of the tail B ~ omega^-p; NaN where there is none.
@@ -133,7 +133,7 @@ def retardation(
     hydro : xarray.Dataset
         With radiation_damping and added_mass; see :mod:`ogilvie.hydro.schema`.
     duration : float, optional
-        Last time, s. By default where every |K_ii| has fallen below 0.2 % of its largest value, as far as the spacing of the
+        Last time, s. By default where the size of every K_ii has fallen below 0.2 % of its largest value, as far as the spacing of the
         frequencies allows.
     dt : float, optional
         Time step, s. By default about 1/20 of the shortest period in the data.

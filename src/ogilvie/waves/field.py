@@ -157,7 +157,7 @@ class Sea:
         return self._sum(rho * self.g * (down + up) / (1.0 + bottom), t, x, y)
 
     def velocity(self, t: ArrayLike, x: ArrayLike = 0.0, y: ArrayLike = 0.0, *, z: float) -> Array:
-        """Return the velocity of the water at the height z <= 0, m/s; shape (..., *shape, 3).
+        """Return the velocity of the water at the height z <= 0, m/s; shape (..., shape, 3).
 
         Notes
         -----

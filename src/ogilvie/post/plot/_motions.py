@@ -83,7 +83,7 @@ def response_spectra(
     run : xarray.Dataset
         From :func:`ogilvie.simulate`.
     expected : xarray.DataArray, optional
-        Spectra |RAO|^2 S of the frequency domain, dims (omega, dof), m2 s/rad or rad2 s/rad, drawn for comparison.
+        Spectra abs(RAO)^2 S of the frequency domain, dims (omega, dof), m2 s/rad or rad2 s/rad, drawn for comparison.
     skip : float
         Start of the part that is analysed, s.
     dofs : sequence of str, optional

@@ -97,8 +97,8 @@ def _scene(ax: Any, hull: "PanelMesh", sea: "Sea", pose: Array, t: float) -> Non
     L, B, T = hull.length, hull.beam, hull.draught
     level = np.array([pose[0], pose[1], 0.0, 0.0, 0.0, pose[5]])
     far = max(0.40 * L, 2.0 * B)
-    u = np.linspace(-0.72 * L, 0.72 * L, 300)
-    v = np.concatenate([np.linspace(-0.64 * B, 0.6 * B, 70), np.linspace(0.6 * B, far, 60)[1:]])
+    u = np.linspace(-0.72 * L, 0.72 * L, 230)
+    v = np.concatenate([np.linspace(-0.64 * B, 0.6 * B, 60), np.linspace(0.6 * B, far, 36)[1:]])
     points = _surface(sea, t, u, v, level)
     camera = Camera(np.radians(-64) + pose[5], np.radians(15), (pose[0], pose[1], 0.0))
     outside = ~_within(hull, 0.25 * (points[:-1, :-1] + points[1:, 1:] + points[:-1, 1:] + points[1:, :-1]), level)

@@ -155,7 +155,7 @@ def _amplitude_phase(X: "xr.DataArray", dofs: Sequence[str] | None, compare: "xr
     names = choose([str(d) for d in X.dof.values], dofs, "dofs")
     X = X.sel(dof=names).transpose("omega", "wave_direction", "dof")
     directions = np.degrees(X.wave_direction.values)
-    picked = np.unique(np.linspace(0, len(directions) - 1, min(len(directions), 9)).round().astype(int))
+    picked = np.arange(0, len(directions), max(1, -(-(len(directions) - 1) // 6)))  # at most 7
     end = _last_of_interest(X.omega.values, np.abs(X.values))
     columns = min(3, len(names))
     rows = -(-len(names) // columns)
@@ -178,7 +178,7 @@ def _amplitude_phase(X: "xr.DataArray", dofs: Sequence[str] | None, compare: "xr
         upper.set_ylim(0, 1.06 * top)
         lower.set_ylabel("phase [deg]")
         lower.set_ylim(-180, 180)
-        lower.set_yticks([-180, -90, 0, 90, 180], ["\u2212180", "", "0", "", "180"])
+        lower.set_yticks([-180, 0, 180])
         lower.set_xlim(0, end)
     for ax in axes[-1]:
         ax.set_xlabel("\u03c9 [rad/s]")
