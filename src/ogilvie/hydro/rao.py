@@ -49,7 +49,7 @@ def rao(
     -------
     xarray.DataArray
         (omega, wave_direction, dof) complex; m/m and rad/m, x = Re(RAO a exp(i (omega_e t + phase))). The coordinate
-        ``encounter_frequency`` (omega, wave_direction) is signed. NaN where abs(omega_e) lies above the radiation data, or where
+        ``encounter_frequency`` (omega, wave_direction) is signed. NaN where omega_e lies beyond the radiation data, or where
         nothing holds the body.
 
     Raises

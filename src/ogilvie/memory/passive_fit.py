@@ -14,6 +14,7 @@ Array = NDArray[Any]
 DAMPERS = 3  # r; more gain nothing on any vessel tried, one is too few
 _MOTION_WEIGHT = 20.0
 _A_INF_TOLERANCE = 0.5  # standard deviations of A(omega) by which a given A_inf may be off at the cost of one residual
+_DAMPING_FLOOR = 0.15  # of critical, of an oscillator by its own row of D
 _INITIAL_WEIGHT = 0.05  # of K(0+), which the data beyond the last frequency determine only roughly
 
 
@@ -146,19 +147,25 @@ class Fit:
         return np.sqrt(change.sum(axis=0)) / _MOTION_WEIGHT
 
     def _penalties(self, p: Array) -> list[Array]:
-        """Residuals that keep A_inf near its given value, frequencies in range and K(0+) = b^T b near its estimate."""
+        """Residuals that keep A_inf near its value, frequencies in range, oscillators damped, K(0+) near its estimate."""
         n = self.oscillators(p)
-        x, b, _ = _split(p[self.n_inf :], n, self.m, self.r)
+        x, b, D = _split(p[self.n_inf :], n, self.m, self.r)
         low, high = self.bounds
+        ratio = np.log((D**2).sum(axis=1) / 2 + 1e-300) - x - np.log(_DAMPING_FLOOR)
         hold = 1 / _A_INF_TOLERANCE if self.target.A_inf_given else 1e-3
         initial = (self.fK * (b.T @ b - self.target.K_initial))[np.triu_indices(self.m)]
-        return [hold * p[: self.n_inf], np.maximum(x - high, 0) + np.minimum(x - low, 0), initial]
+        return [hold * p[: self.n_inf], np.maximum(x - high, 0) + np.minimum(x - low, 0), initial, 0.1 * np.minimum(ratio, 0)]
 
     def _penalty_slopes(self, p: Array) -> list[Array]:
         n, n_p = self.oscillators(p), len(p)
-        x, b, _ = _split(p[self.n_inf :], n, self.m, self.r)
+        x, b, D = _split(p[self.n_inf :], n, self.m, self.r)
         low, high = self.bounds
-        slopes = [np.zeros((self.n_inf, n_p)), np.zeros((n, n_p)), np.zeros((self.n_inf, n_p))]
+        slopes = [np.zeros((rows, n_p)) for rows in (self.n_inf, n, self.n_inf, n)]
+        size = (D**2).sum(axis=1) + 1e-300
+        k = np.flatnonzero(np.log(size / 2) - x < np.log(_DAMPING_FLOOR))
+        slopes[3][k, self.n_inf + k] = -0.1
+        for q in range(self.r):
+            slopes[3][k, n_p - n * self.r + k * self.r + q] = 0.2 * D[k, q] / size[k]
         slopes[0][:, : self.n_inf] = np.eye(self.n_inf) * (1 / _A_INF_TOLERANCE if self.target.A_inf_given else 1e-3)
         slopes[1][np.arange(n), self.n_inf + np.arange(n)] = (x > high) | (x < low)
         at = self.n_inf + n + self.m * np.arange(n)

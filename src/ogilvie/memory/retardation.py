@@ -133,8 +133,8 @@ def retardation(
     hydro : xarray.Dataset
         With radiation_damping and added_mass; see :mod:`ogilvie.hydro.schema`.
     duration : float, optional
-        Last time, s. By default where the size of every K_ii has fallen below 0.2 % of its largest value, as far as the spacing of the
-        frequencies allows.
+        Last time, s. By default where the size of every K_ii has fallen below 0.2 % of its largest value, as far as the
+        spacing of the frequencies allows.
     dt : float, optional
         Time step, s. By default about 1/20 of the shortest period in the data.
     tail : {"fit", "omega-2", "omega-3", "none"}

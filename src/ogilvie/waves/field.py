@@ -142,7 +142,7 @@ class Sea:
         Returns
         -------
         array
-            (..., *shape) with shape that of t, x and y together; realisations lead.
+            (..., shape) with shape that of t, x and y together; realisations lead.
 
         Notes
         -----
