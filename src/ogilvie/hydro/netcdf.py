@@ -59,6 +59,9 @@ def write_netcdf(hydro: xr.Dataset, path: str | Path) -> Path:
     os.close(handle)
     try:
         real.to_netcdf(name, engine="h5netcdf", encoding=checksum)
+        mask = os.umask(0o022)  # mkstemp gives no rights to others; new files get the usual ones
+        os.umask(mask)
+        os.chmod(name, 0o666 & ~mask)
         os.replace(name, target)
     except BaseException:
         Path(name).unlink(missing_ok=True)
