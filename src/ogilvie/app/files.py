@@ -1,15 +1,14 @@
 """What the application writes and reads: whole files or none, and what kind of thing a file is."""
 
-import os
-import tempfile
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ogilvie.errors import FormatError, InputError, OgilvieWarning
+from ogilvie.atomic import write_whole
+from ogilvie.errors import FormatError, OgilvieWarning
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -19,29 +18,6 @@ if TYPE_CHECKING:
 
 MESH_SUFFIXES = (".gdf", ".stl", ".obj", ".msh", ".pnl", ".nemoh", ".mar")
 _FORMAT = "ogilvie memory 1"
-
-
-def write_whole(path: Path, write: Callable[[Path], Any]) -> Path:
-    """Let `write` fill a temporary file in the same folder, then move it into place: whole or not at all."""
-    if not path.parent.is_dir():
-        raise InputError(f"{path}: an existing folder expected, no {path.parent} found. Make it first.")
-    handle, name = tempfile.mkstemp(prefix=f".{path.stem}-", suffix=path.suffix, dir=path.parent)
-    os.close(handle)
-    temporary = Path(name)
-    try:
-        write(temporary)
-        os.chmod(temporary, 0o666 & ~_umask())
-        os.replace(temporary, path)
-    finally:
-        temporary.unlink(missing_ok=True)
-    return path
-
-
-def _umask() -> int:
-    """The rights that new files do not get; mkstemp gives none to others."""
-    mask = os.umask(0o022)
-    os.umask(mask)
-    return mask
 
 
 def write_bytes(path: Path, content: bytes) -> Path:

@@ -150,4 +150,5 @@ def largest(values: Array) -> tuple[int, int]:
 
 
 def pair_name(dofs: list[str], i: int, j: int) -> str:
+    """Return the name of a coupling, the same for ij and ji."""
     return dofs[i] if i == j else f"{dofs[min(i, j)]}-{dofs[max(i, j)]}"

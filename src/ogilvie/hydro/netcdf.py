@@ -1,13 +1,12 @@
 """netCDF files: the package's own, written and read, and those of Capytaine."""
 
-import os
-import tempfile
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from ogilvie.atomic import write_whole
 from ogilvie.errors import FormatError, InputError
 from ogilvie.hydro.capytaine_data import from_capytaine
 from ogilvie.hydro.schema import validate
@@ -53,20 +52,7 @@ def write_netcdf(hydro: xr.Dataset, path: str | Path) -> Path:
                 f"attribute {key}: text or numbers expected, {value!r} found. netCDF holds nothing else; remove it."
             )
     checksum = {str(key): {"fletcher32": True} for key, v in real.variables.items() if v.ndim and v.dtype.kind in "fiu"}
-    if not target.parent.is_dir():
-        raise InputError(f"{target.parent}: an existing folder expected, none found. Make it first.")
-    handle, name = tempfile.mkstemp(suffix=".nc", prefix=f".{target.stem}-", dir=target.parent)
-    os.close(handle)
-    try:
-        real.to_netcdf(name, engine="h5netcdf", encoding=checksum)
-        mask = os.umask(0o022)  # mkstemp gives no rights to others; new files get the usual ones
-        os.umask(mask)
-        os.chmod(name, 0o666 & ~mask)
-        os.replace(name, target)
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise
-    return target
+    return write_whole(target, lambda part: real.to_netcdf(part, engine="h5netcdf", encoding=checksum))
 
 
 def read_netcdf(

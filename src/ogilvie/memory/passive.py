@@ -166,8 +166,8 @@ def _waive(block: _Block, r2: float, names: tuple[str, ...], notes: list[str]) -
         i, j = np.unravel_index(int(np.nanargmin(reached)), reached.shape)
         block.waived[i, j] = block.waived[j, i] = True
         notes.append(
-            f"{names[block.dofs[i]]}-{names[block.dofs[j]]}: R2 stays at {reached[i, j]:.3f}; its added mass and damping "
-            f"contradict each other, no causal passive model fits both."
+            f"{names[block.dofs[i]]}-{names[block.dofs[j]]}: R2 stays at {reached[i, j]:.3f} and further states "
+            f"do not help; check(hydro) tells whether its added mass and damping contradict each other."
         )
         block.fit.target.weight[i, j] = block.fit.target.weight[j, i] = 0.2
         block.fit.reweigh()

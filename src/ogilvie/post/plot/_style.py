@@ -1,9 +1,7 @@
 """One look for all figures: size, fonts, colours that colour-blind readers can tell apart, units on every axis."""
 
 import io
-import os
 import sys
-import tempfile
 from collections.abc import Callable, Sequence
 from functools import wraps
 from pathlib import Path
@@ -12,6 +10,7 @@ from typing import Any, ParamSpec
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ogilvie.atomic import write_whole
 from ogilvie.errors import InputError
 
 P = ParamSpec("P")
@@ -163,18 +162,7 @@ def write(fig: Any, path: str | Path) -> Path:
     path = Path(path)
     if path.suffix.lower() not in (".png", ".svg", ".pdf"):
         raise InputError(f"figure: a file name that ends in .png, .svg or .pdf expected, {path.name!r} found.")
-    handle, temporary = tempfile.mkstemp(suffix=path.suffix, dir=path.parent)
-    os.close(handle)
-    try:
-        fig.savefig(temporary, format=path.suffix[1:].lower())
-        mask = os.umask(0o022)
-        os.umask(mask)
-        os.chmod(temporary, 0o666 & ~mask)
-        os.replace(temporary, path)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
-    return path
+    return write_whole(path, lambda part: fig.savefig(part, format=path.suffix[1:].lower()))
 
 
 def power(values: ArrayLike) -> tuple[float, str]:

@@ -1,0 +1,44 @@
+"""Files are written whole or not at all."""
+
+import os
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from ogilvie.errors import InputError
+
+
+def write_whole(path: Path, write: Callable[[Path], Any]) -> Path:
+    """Let `write` fill a temporary file in the same folder, then move it into place, with the rights that new files get.
+
+    Parameters
+    ----------
+    path : Path
+    write : callable
+        Takes the path of the temporary file, which has the ending of `path`.
+
+    Raises
+    ------
+    InputError
+        The folder does not exist.
+    """
+    if not path.parent.is_dir():
+        raise InputError(f"{path}: an existing folder expected, no {path.parent} found. Make it first.")
+    handle, name = tempfile.mkstemp(prefix=f".{path.stem}-", suffix=path.suffix, dir=path.parent)
+    os.close(handle)
+    temporary = Path(name)
+    try:
+        write(temporary)
+        os.chmod(temporary, 0o666 & ~_umask())
+        os.replace(temporary, path)
+    finally:
+        temporary.unlink(missing_ok=True)
+    return path
+
+
+def _umask() -> int:
+    """The rights that new files do not get; mkstemp gives none to others."""
+    mask = os.umask(0o022)
+    os.umask(mask)
+    return mask
