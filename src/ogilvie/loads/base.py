@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from ogilvie.body import RigidBody
 from ogilvie.errors import InputError
 from ogilvie.hydro.schema import DOFS
+from ogilvie.loads.kernel import Kernel, Sampled
 from ogilvie.waves.field import Sea
 
 Array = NDArray[Any]
@@ -83,11 +84,17 @@ class Terms:
     memory : MemoryModel or MemoryKernel, optional
     wave : callable, optional
         Complex force per metre of wave amplitude.
+    kernel : Kernel, optional
+        Compiled force that is not linear in the motion; see :mod:`ogilvie.loads.kernel`.
+    control : Sampled, optional
+        Compiled control law, sampled and held.
+    current : (3,) array
+        Velocity of the water in the world, m/s.
 
     Notes
     -----
     Force on the body = constant - added_mass nu' - damping nu - stiffness eta - mu
-    + Re sum_j wave_j a_j exp(i (w_e t + phase)_j).
+    + Re sum_j wave_j a_j exp(i (w_e t + phase)_j) + kernel + control.
     """
 
     added_mass: Array = field(default_factory=lambda: np.zeros((6, 6)))
@@ -97,6 +104,9 @@ class Terms:
     damping_ratio: Array = field(default_factory=lambda: np.zeros(6))
     memory: MemoryModel | MemoryKernel | None = None
     wave: WaveTransfer | None = None
+    kernel: Kernel | None = None
+    control: Sampled | None = None
+    current: Array = field(default_factory=lambda: np.zeros(3))
 
 
 @dataclass(frozen=True, eq=False)
