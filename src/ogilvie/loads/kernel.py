@@ -1,9 +1,9 @@
 """Compiled forces: what a load hands to the time loop when its force is not linear in the motion.
 
 A force kernel is a compiled function ``f(x, data, own, force)`` that adds a force on the body about O, in body axes, to
-``force`` (6,). ``x`` is the situation at one stage of a step, ``data`` the load's numbers in one flat array, ``own`` those of the
-realisation. A control kernel has the same form, is called once per sampling period, keeps its memory in ``own``, and its force
-is held until the next sample. One signature for all, so a new load is a new file and never a branch in the time loop.
+``force`` (6,). ``x`` is the situation at one stage of a step, ``data`` the load's numbers in one flat array, ``own`` those of
+the realisation. A control kernel has the same form, is called once per sampling period, keeps its memory in ``own``, and its
+force is held until the next sample. One signature for all, so a new load is a new file and never a branch in the time loop.
 """
 
 from dataclasses import dataclass, field
@@ -17,8 +17,8 @@ from ogilvie.errors import InputError
 
 Array = NDArray[Any]
 
-#: Places in the situation x: time (s); pose eta in the world (m, rad); velocity nu in body axes; velocity through the water nu_r
-#: in body axes; the rotation matrix R (3, 3) row by row, body to world; the number of entries.
+#: Places in the situation x: time (s); pose eta in the world (m, rad); velocity nu in body axes; velocity through the water
+#: nu_r in body axes; the rotation matrix R (3, 3) row by row, body to world; the number of entries.
 TIME, ETA, NU, NU_R, ROTATION, SITUATION = 0, 1, 7, 13, 19, 28
 
 _F8 = types.float64[::1]
