@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from ogilvie.body import RigidBody
 from ogilvie.errors import InputError
 from ogilvie.hydro.schema import DOFS
-from ogilvie.loads.kernel import Kernel, Sampled
+from ogilvie.loads.kernel import Callback, Kernel, Sampled
 from ogilvie.waves.field import Sea
 
 Array = NDArray[Any]
@@ -42,6 +42,14 @@ class WaveTransfer(Protocol):
 
     def __call__(self, sea: Sea, heading: float) -> ComplexArray:
         """Return the force (n, 6) of each component on a vessel with this heading (rad)."""
+        ...
+
+
+class Encounter(Protocol):
+    """Compiled force of a sea on a vessel that is anywhere in it."""
+
+    def __call__(self, sea: Sea, ramp: float) -> Kernel:
+        """Return the force of the sea, which grows from nothing during the ramp (s)."""
         ...
 
 
@@ -86,15 +94,21 @@ class Terms:
         Complex force per metre of wave amplitude.
     kernel : Kernel, optional
         Compiled force that is not linear in the motion; see :mod:`ogilvie.loads.kernel`.
+    small : Terms, optional
+        What stands for the whole load in small motions; without it a load with a kernel is for large motions only.
+    encounter : callable, optional
+        Compiled force of the waves where the vessel is, in place of `wave` when motions are large.
     control : Sampled, optional
         Compiled control law, sampled and held.
+    callback : Callback, optional
+        The same in Python.
     current : (3,) array
         Velocity of the water in the world, m/s.
 
     Notes
     -----
     Force on the body = constant - added_mass nu' - damping nu - stiffness eta - mu
-    + Re sum_j wave_j a_j exp(i (w_e t + phase)_j) + kernel + control.
+    + Re sum_j wave_j a_j exp(i (w_e t + phase)_j) + kernel + encounter + control + callback.
     """
 
     added_mass: Array = field(default_factory=lambda: np.zeros((6, 6)))
@@ -105,7 +119,10 @@ class Terms:
     memory: MemoryModel | MemoryKernel | None = None
     wave: WaveTransfer | None = None
     kernel: Kernel | None = None
+    small: "Terms | None" = None
+    encounter: Encounter | None = None
     control: Sampled | None = None
+    callback: Callback | None = None
     current: Array = field(default_factory=lambda: np.zeros(3))
 
 

@@ -1,21 +1,24 @@
 """First-order wave excitation: Froude-Krylov and diffraction force of each wave component."""
 
 import warnings
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ogilvie.errors import InputError, OgilvieWarning
 from ogilvie.hydro.schema import DOFS
 from ogilvie.loads.base import DIFFRACTION, FROUDE_KRYLOV, ComplexArray, Surroundings, Terms, embed
-from ogilvie.loads.interpolation import Headings, evaluate, symmetric_headings
+from ogilvie.loads.encounter import encounter_kernel
+from ogilvie.loads.interpolation import Headings, evaluate, evaluate_turning, reachable, symmetric_headings
+from ogilvie.loads.kernel import Kernel
 from ogilvie.waves.field import Sea
 
 #: Largest share of the sea's variance that may lie outside the frequencies of the coefficients (left out with a warning).
 NEGLIGIBLE = 1e-3
+_TURNS_LEAST = np.radians(2.0)  # range of headings below which large motions make no sense
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -26,6 +29,9 @@ class WaveExcitation:
     ----------
     hydro : xarray.Dataset
         Hydrodynamic data set with ``excitation_force``.
+    position : {"instantaneous", "mean"}
+        Where the waves are met in large motions: where the vessel is, at the heading it has; or in the frame that advances
+        steadily, as small motions assume.
 
     Raises
     ------
@@ -55,9 +61,12 @@ class WaveExcitation:
     hydro: xr.Dataset
     _headings: Headings = field(repr=False)
     _table: ComplexArray = field(repr=False)
+    position: str = "instantaneous"
     name: str = "excitation"
 
-    def __init__(self, hydro: xr.Dataset) -> None:
+    def __init__(self, hydro: xr.Dataset, *, position: str = "instantaneous") -> None:
+        if position not in ("instantaneous", "mean"):
+            raise InputError(f"WaveExcitation: position 'instantaneous' or 'mean' expected, {position!r} found.")
         if not isinstance(hydro, xr.Dataset):
             raise InputError(
                 f"WaveExcitation: a hydrodynamic data set (xarray.Dataset) expected, {type(hydro).__name__} found."
@@ -70,6 +79,7 @@ class WaveExcitation:
         table = embed(hydro.excitation_force.values, dofs, (2,)).astype(complex)  # (n_w, n_b, 6)
         headings, table = symmetric_headings(hydro, table)
         object.__setattr__(self, "hydro", hydro)
+        object.__setattr__(self, "position", position)
         object.__setattr__(self, "name", "excitation")
         object.__setattr__(self, "_headings", headings)
         object.__setattr__(self, "_table", table)
@@ -112,7 +122,8 @@ class WaveExcitation:
                 OgilvieWarning,
                 stacklevel=2,
             )
-        return Terms(wave=partial(_force_in_sea, self))
+        encounter = partial(_encounter, self, surroundings) if self.position == "instantaneous" else None
+        return Terms(wave=partial(_force_in_sea, self), encounter=encounter)
 
     @property
     def _range(self) -> tuple[float, float]:
@@ -123,14 +134,39 @@ class WaveExcitation:
 def _force_in_sea(load: WaveExcitation, sea: Sea, heading: float) -> ComplexArray:
     """Return the force of all components; those outside the data must hold a negligible share of the variance."""
     _compare_depth(load, sea)
+    inside = _covered(load, sea)
+    force = np.zeros((len(sea.omega), len(DOFS)), dtype=complex)
+    force[inside] = load.force(sea.omega[inside], sea.direction[inside] - heading)
+    return force
+
+
+def _covered(load: WaveExcitation, sea: Sea) -> NDArray[np.bool_]:
+    """Return which components have data; the others must hold a negligible share of the variance."""
     lo, hi = load._range
     inside = (sea.omega >= lo * (1 - 1e-9)) & (sea.omega <= hi * (1 + 1e-9))
     if not inside.all():
         variance = np.atleast_2d(sea.amplitude**2).mean(axis=0)
         _report_lost(float(variance[~inside].sum() / variance.sum()) if variance.any() else 0.0, sea.omega, lo, hi)
-    force = np.zeros((len(sea.omega), len(DOFS)), dtype=complex)
-    force[inside] = load.force(sea.omega[inside], sea.direction[inside] - heading)
-    return force
+    return inside
+
+
+def _encounter(load: WaveExcitation, surroundings: Surroundings, sea: Sea, ramp: float) -> Kernel:
+    """Return the compiled force of the sea where the vessel is."""
+    inside = _covered(load, sea)
+    w, direction = sea.omega[inside], sea.direction[inside]
+    limits = reachable(load._headings, direction, surroundings.heading)
+    if limits is not None and limits[1] - limits[0] < _TURNS_LEAST:
+        raise InputError(
+            f"WaveExcitation: large motions need data for the headings that the vessel takes; for this sea they hold from "
+            f"{np.degrees(limits[0]):.4g} to {np.degrees(limits[1]):.4g} deg only. Give coefficients for more headings, or "
+            "position='mean' to take the force at the mean heading."
+        )
+    part = replace(sea, omega=w, direction=direction, amplitude=sea.amplitude[..., inside], phase=sea.phase[..., inside])
+
+    def force(headings: ComplexArray, speed: float) -> ComplexArray:
+        return evaluate_turning(load.hydro.omega.values, load._headings, load._table, w, direction - headings[:, None])
+
+    return encounter_kernel(force, part, ramp=ramp, speeds=np.array([surroundings.speed]), headings=limits)
 
 
 def _compare_depth(load: WaveExcitation, sea: Sea) -> None:

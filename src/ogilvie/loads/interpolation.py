@@ -126,6 +126,37 @@ def heading_weights(headings: Headings, b: Array) -> Array:
     return np.ones((len(b), 1)) if len(t) == 1 else _spline(t, np.eye(len(t)), x)
 
 
+def evaluate_turning(omega: Array, headings: Headings, table: ComplexArray, w: Array, b: Array) -> ComplexArray:
+    """Return the forces (n_h, n, 6) at frequencies w (n,) and headings b (n_h, n) from the table (n_w, n_b, 6)."""
+    along = np.broadcast_to(table, (len(w), *table.shape[1:])) if len(omega) == 1 else _spline(omega, table, w)
+    across = heading_weights(headings, b.ravel()).reshape(*b.shape, -1)
+    return np.einsum("hnb,nbi->hni", across, along)
+
+
+def reachable(headings: Headings, direction: Array, heading: float) -> tuple[float, float] | None:
+    """Return the headings of a vessel, rad, between which waves of these directions (n,) meet it within the data.
+
+    None where the data go all around. The range holds `heading`; without any extent it is that of the waves nearest the edge.
+
+    Examples
+    --------
+    >>> lo, hi = reachable(Headings(np.radians([90.0, 135.0, 180.0]), False), np.radians([120.0, 130.0]), 0.0)
+    >>> np.degrees([lo, hi]).round()
+    array([-50.,  30.])
+    """
+    if headings.periodic:
+        return None
+    t = headings.values
+    cuts = np.flatnonzero(np.diff(t) > _WIDEST_GAP + _TOLERANCE)
+    starts, ends = t[np.r_[0, cuts + 1]], t[np.r_[cuts, len(t) - 1]]
+    lo, hi = -np.inf, np.inf
+    for b in direction - heading:
+        x = t[0] + np.mod(b - t[0] + _TOLERANCE, TURN) - _TOLERANCE
+        run = int(np.clip(np.searchsorted(starts, x + _TOLERANCE, side="right") - 1, 0, len(starts) - 1))
+        lo, hi = max(lo, x - ends[run]), min(hi, x - starts[run])
+    return heading + lo, heading + hi
+
+
 def _refuse_outside(headings: Headings, x: Array) -> None:
     """Refuse headings beyond the data and headings in a gap that is too wide to interpolate across."""
     ring = np.append(headings.values, headings.start + TURN)

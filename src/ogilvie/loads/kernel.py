@@ -6,6 +6,7 @@ the realisation. A control kernel has the same form, is called once per sampling
 force is held until the next sample. One signature for all, so a new load is a new file and never a branch in the time loop.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -69,18 +70,52 @@ class Sampled:
         At the start.
     period : float
         s, > 0.
+    signals : tuple of (name, unit, place)
+        Entries of the memory that results record.
     """
 
     function: Any
     data: Array
     memory: Array
     period: float
+    signals: tuple[tuple[str, str, int], ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "data", _flat(self.data, 1))
         object.__setattr__(self, "memory", _flat(self.memory, 1))
         if not (np.isfinite(self.period) and self.period > 0.0):
             raise InputError(f"period: a positive number of s expected, {self.period!r} found.")
+
+
+@dataclass(frozen=True, eq=False)
+class Callback:
+    """A force that Python computes, called every `period` seconds and held in between.
+
+    Parameters
+    ----------
+    function : callable
+        ``function(t, eta, nu)`` returns the force (6,) on the body about O, in body axes, N and N m.
+    period : float
+        s, > 0.
+    begin : callable, optional
+        ``begin(t, eta, nu)`` is called before the first step.
+    alone : bool
+        The function keeps a state of its own, so it serves one realisation only.
+    """
+
+    function: Callable[[float, Array, Array], Array]
+    period: float
+    begin: Callable[[float, Array, Array], None] | None = None
+    alone: bool = False
+
+    def held(self) -> Sampled:
+        """Return the control law that keeps what Python wrote."""
+        return Sampled(_hold, np.zeros(0), np.zeros(0), self.period)
+
+
+@load_kernel
+def _hold(x, data, own, force):
+    pass
 
 
 def situation(t: float = 0.0, eta: Any = None, nu: Any = None, nu_r: Any = None) -> Array:

@@ -9,11 +9,12 @@ from numpy.typing import NDArray
 
 from ogilvie.errors import InputError
 from ogilvie.loads.base import MemoryKernel
-from ogilvie.sim.dynamics import FAST, combine, pack_mechanics, record, stages
+from ogilvie.sim.dynamics import COLUMNS, FAST, combine, pack_mechanics, record, stages
 from ogilvie.sim.integrate import memory_step, refuse_unstable_step, step_matrix
 from ogilvie.sim.lag import lag_weights
+from ogilvie.sim.scheme import Interval
 from ogilvie.sim.seaway import combine_harmonics
-from ogilvie.sim.system import LinearSystem
+from ogilvie.sim.system import TURNING, LinearSystem
 
 Array = NDArray[Any]
 ComplexArray = NDArray[Any]
@@ -30,6 +31,8 @@ class ConvolutionScheme:
     ----------
     dt : float
         s.
+    speed : float
+        U, m/s.
     mechanics : (18, 6, 6) array
         See :mod:`ogilvie.sim.dynamics`.
     pairs : (n_pairs, 2) int array
@@ -58,17 +61,19 @@ class ConvolutionScheme:
     """
 
     dt: float
+    speed: float
     mechanics: Array
     pairs: NDArray[np.int64]
     weights: Array
     near: Array
     start_weights: Array
     start_factors: Array
+    columns: int = COLUMNS
 
     @classmethod
     def of(cls, system: LinearSystem, dt: float) -> "ConvolutionScheme":
         """Return the scheme of a system, or raise :class:`InputError` with the time step that would work."""
-        kernel = system.memory
+        kernel = system.memory_at_speed
         assert isinstance(kernel, MemoryKernel)
         _check_step(system, kernel, dt)
         n = int(np.ceil(kernel.t[-1] / dt - 1e-9)) + 2  # beyond the memory, so that its far end needs no care
@@ -88,7 +93,8 @@ class ConvolutionScheme:
         coupling[3, 0], coupling[3, 2] = far_half - near_half, 2.0 * near_half
         return cls(
             dt=float(dt),
-            mechanics=pack_mechanics(system.inverse_mass, system.stiffness, system.damping, coupling),
+            speed=system.speed,
+            mechanics=pack_mechanics(system.inverse_mass, system.stiffness, system.damping_at_speed, coupling),
             pairs=np.ascontiguousarray(pairs, dtype=np.int64),
             weights=np.ascontiguousarray(both.transpose(2, 0, 1)),
             near=near,
@@ -110,10 +116,10 @@ class ConvolutionScheme:
         """Return the memory (r, k) of vessels that were at rest."""
         return np.zeros((len(nu), self.memory_size))
 
-    def steady(self, omega: Array, response: ComplexArray, amplitude: ComplexArray) -> Array:
+    def steady(self, omega: Array, velocity: ComplexArray, amplitude: ComplexArray) -> Array:
         """Return the memory (r, k) of harmonic motions, their past velocities; see :class:`ogilvie.sim.scheme.Scheme`."""
         turn = np.exp(-1j * np.outer(omega, self.dt * np.arange(1, self.length + 1)))
-        past = np.stack([combine_harmonics(amplitude, (1j * omega * response[:, i])[:, None] * turn) for i in range(6)], axis=1)
+        past = np.stack([combine_harmonics(amplitude, velocity[:, i, None] * turn) for i in range(6)], axis=1)
         carried = np.zeros((len(amplitude), 6))
         for (i, j), w in zip(self.pairs, self.weights, strict=True):
             carried[:, i] += (past[:, j] * w[1]).sum(axis=1)
@@ -121,23 +127,11 @@ class ConvolutionScheme:
         velocities = np.concatenate([past, past], axis=2).reshape(len(amplitude), -1)
         return np.concatenate([count, np.zeros_like(count), carried, velocities], axis=1)
 
-    def advance(
-        self,
-        y: Array,
-        memory: Array,
-        wave: Array,
-        external: Array,
-        *,
-        row: int,
-        steps: int,
-        first: int,
-        stride: int,
-        out: Array,
-    ) -> int:
+    def advance(self, y: Array, memory: Array, wave: Array, external: Array, at: Interval, out: Array) -> int:
         """Advance in place; see :class:`ogilvie.sim.scheme.Scheme`."""
         return _run(
-            self.dt, self.mechanics, self.pairs, self.weights, self.near, self.start_weights, self.start_factors,
-            y, memory, wave, external, row, steps, first, stride, out,
+            self.dt, self.speed, self.mechanics, self.pairs, self.weights, self.near, self.start_weights, self.start_factors,
+            y, memory, wave, external, at.row, at.steps, at.first, at.stride, out,
         )  # fmt: skip
 
 
@@ -145,14 +139,14 @@ def _check_step(system: LinearSystem, kernel: MemoryKernel, dt: float) -> None:
     """The fluid acts between a spring K(0) (fast motions) and nothing (slow ones): both must be stable."""
     if kernel.t[-1] < _START * dt:
         raise InputError(f"dt: at most an eighth of the memory's {kernel.t[-1]:g} s expected, {dt:g} s found.")
-    W, D = system.inverse_mass, system.damping
+    W, D, U = system.inverse_mass, system.damping_at_speed, system.speed
     nothing = memory_step(np.zeros((0, 0)), np.zeros((0, 6)), np.zeros((6, 0)), dt)
     for spring in (system.stiffness, system.stiffness + kernel.K[0]):
-        loop = np.block([[np.zeros((6, 6)), np.eye(6)], [-W @ spring, -W @ D]])
+        loop = np.block([[U * TURNING, np.eye(6)], [-W @ spring, -W @ D]])
         natural = max(0.0, float(np.linalg.eigvals(loop).real.max()))
 
         def growth(h: float, spring: Array = spring, natural: float = natural) -> float:
-            return float(np.abs(np.linalg.eigvals(step_matrix(W, spring, D, nothing, h))).max() * np.exp(-natural * h))
+            return float(np.abs(np.linalg.eigvals(step_matrix(W, spring, D, nothing, h, U))).max() * np.exp(-natural * h))
 
         refuse_unstable_step(growth, dt)
 
@@ -188,9 +182,10 @@ def _sum(weights, past, head, count, force):
 
 @njit(cache=True, nogil=True, fastmath=FAST)
 def _run(
-    dt, mechanics, pairs, weights, near, start_weights, start_factors, y, memory, wave, external, row, steps, first, stride, out
-):
-    eta, v, a, mu = np.empty(6), np.empty((4, 6)), np.empty((4, 6)), np.zeros((4, 6))
+    dt, speed, mechanics, pairs, weights, near, start_weights, start_factors,
+    y, memory, wave, external, row, steps, first, stride, out,
+):  # fmt: skip
+    eta, rate, v, a, mu = np.empty(6), np.empty((4, 6)), np.empty((4, 6)), np.empty((4, 6)), np.zeros((4, 6))
     n = weights.shape[2]
     start = start_weights.shape[0]
     past = memory[8:].reshape(6, 2 * n)
@@ -219,11 +214,11 @@ def _run(
             _past(pairs, weights, past, head, mu)
         for p in range(6):
             memory[2 + p] = mu[3, p]
-        stages(dt, mechanics, wave, row + 2 * i, external, mu, y, eta, v, a)
+        stages(dt, speed, mechanics, wave, row + 2 * i, external, mu, y, eta, rate, v, a)
         if (first + i) % stride == 0:
             record(out, written, y, a, mu)
             written += 1
-        combine(dt, y, v, a)
+        combine(dt, y, rate, v, a)
     memory[0] = count
     memory[1] = head
     return written

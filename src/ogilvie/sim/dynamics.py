@@ -1,7 +1,8 @@
 """Compiled: one Runge-Kutta step of the linear equations of motion, whatever the model of the fluid memory.
 
-Kernels see plain arrays; ``y = (eta, nu)`` (12,) is advanced in place. ``mechanics`` (18, 6, 6) holds the inverse mass, the
-stiffness and the sixteen matrices E_ij of :func:`stages`.
+Kernels see plain arrays; ``y = (eta, nu)`` (12,) is advanced in place. eta is the displacement from the steady frame, nu the
+velocity in body axes less the steady speed U: eta' = nu + U (0, psi, -theta, 0, 0, 0). ``mechanics`` (18, 6, 6) holds the
+inverse mass, the stiffness and the sixteen matrices E_ij of :func:`stages`.
 """
 
 import numpy as np
@@ -22,8 +23,8 @@ def pack_mechanics(inverse_mass: np.ndarray, stiffness: np.ndarray, damping: np.
 
 
 @njit(cache=True, nogil=True, fastmath=FAST)
-def stages(dt, mechanics, wave, row, external, memory_force, y, eta, v, a):
-    """Fill the velocities v (4, 6) and accelerations a (4, 6) of the four stages of the classical Runge-Kutta method.
+def stages(dt, speed, mechanics, wave, row, external, memory_force, y, eta, rate, v, a):
+    """Fill the rates of eta, velocities v and accelerations a, each (4, 6), of the stages of the classical Runge-Kutta method.
 
     Notes
     -----
@@ -38,8 +39,11 @@ def stages(dt, mechanics, wave, row, external, memory_force, y, eta, v, a):
                 eta[p] = y[p]
                 v[0, p] = y[6 + p]
             else:
-                eta[p] = y[p] + h * v[i - 1, p]
+                eta[p] = y[p] + h * rate[i - 1, p]
                 v[i, p] = y[6 + p] + h * a[i - 1, p]
+            rate[i, p] = v[i, p]
+        rate[i, 1] += speed * eta[5]
+        rate[i, 2] -= speed * eta[4]
         k = row + (i + 1) // 2
         f0 = wave[k, 0] + external[0] - memory_force[i, 0]
         f1 = wave[k, 1] + external[1] - memory_force[i, 1]
@@ -66,11 +70,11 @@ def stages(dt, mechanics, wave, row, external, memory_force, y, eta, v, a):
 
 
 @njit(cache=True, nogil=True, fastmath=FAST)
-def combine(dt, y, v, a):
+def combine(dt, y, rate, v, a):
     """Advance y by one step with the weights (1, 2, 2, 1) / 6."""
     w = dt / 6.0
     for p in range(6):
-        y[p] += w * (v[0, p] + 2.0 * (v[1, p] + v[2, p]) + v[3, p])
+        y[p] += w * (rate[0, p] + 2.0 * (rate[1, p] + rate[2, p]) + rate[3, p])
         y[6 + p] += w * (a[0, p] + 2.0 * (a[1, p] + a[2, p]) + a[3, p])
 
 

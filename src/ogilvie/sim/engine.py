@@ -1,6 +1,6 @@
 """What a simulation and a stepper share: equations, scheme, wave forces in blocks, the initial state."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -10,10 +10,13 @@ from numpy.typing import NDArray
 
 from ogilvie.errors import InputError
 from ogilvie.loads.harmonics import HarmonicGrid
-from ogilvie.sim.scheme import Scheme, make_scheme
+from ogilvie.sim.forces import LoadForce, load_forces
+from ogilvie.sim.large import LargeMotions
+from ogilvie.sim.large_forces import LargeLoadForce, large_load_forces
+from ogilvie.sim.scheme import Scheme, are_large, large_scheme, make_scheme
 from ogilvie.sim.seaway import Seaway, combine_harmonics, mean_position, meet
 from ogilvie.sim.state import State, as_state
-from ogilvie.sim.system import LinearSystem, assemble
+from ogilvie.sim.system import TURNING, LinearSystem, assemble, bind_loads
 from ogilvie.sim.vessel import Vessel
 from ogilvie.waves.field import Sea
 
@@ -29,17 +32,23 @@ class Engine:
     Parameters
     ----------
     system : LinearSystem
+    about : LinearSystem
+        Of small motions about the steady course, from which a steady start is taken; the same as `system` for small motions.
     scheme : Scheme
     seaway : Seaway or None
     dt, ramp : float
         s; the sea grows from nothing with sin^2 during the ramp, counted from t = 0.
+    large : bool
+        Whether motions are large: then eta is the pose in the world and nu the whole velocity in body axes.
     """
 
     system: LinearSystem
+    about: LinearSystem
     scheme: Scheme
     seaway: Seaway | None
     dt: float
     ramp: float
+    large: bool = False
 
     @property
     def realisations(self) -> int:
@@ -76,6 +85,27 @@ class Engine:
             series *= ramp_factor(t + 0.5 * self.dt * np.arange(len(series)), self.ramp)[:, None]
         return series
 
+    @cached_property
+    def signals(self) -> tuple[tuple[str, str], ...]:
+        """Name and unit of what the control laws let record."""
+        if not isinstance(self.scheme, LargeMotions):
+            return ()
+        laws = zip(self.scheme.laws.names, self.scheme.laws.kernels, strict=True)
+        return tuple((f"{owner}_{name}", unit) for owner, law in laws for name, unit, _ in law.signals)
+
+    def load_forces(self) -> Sequence[LoadForce | LargeLoadForce]:
+        """Return what evaluates the force of each load from the recorded motion."""
+        if isinstance(self.scheme, LargeMotions):
+            return large_load_forces(self.system, self.seaway, self.scheme)
+        return load_forces(self.system, self.seaway)
+
+    def elevation(self, realisation: int, t: Array, motion: Array) -> Array:
+        """Return the elevation (n,) of the undisturbed sea where O is, from recorded rows of large motions."""
+        assert self.seaway is not None
+        sea = self.seaway.sea if self.seaway.sea.amplitude.ndim == 1 else self.seaway.sea.isel(realisation)
+        zeta = sea.elevation(t, motion[:, 0], motion[:, 1])
+        return zeta * ramp_factor(t, self.ramp) if self.ramp > 0.0 else zeta
+
     def start(self, initial: Initial) -> tuple[Array, Array, float]:
         """Return y = (eta, nu) (r, 12), memory (r, k) and time (s) of the beginning.
 
@@ -93,8 +123,17 @@ class Engine:
                 raise InputError(
                     "initial: 'steady' needs the full sea from the beginning, a ramp was found. Give ramp=0 or initial='rest'."
                 )
-            return self._steady() if initial == "steady" else self._given(State())
+            return self._steady() if initial == "steady" else self._given(self._resting())
+        if self.large and isinstance(initial, Mapping):
+            resting = self._resting()
+            initial = {"eta": resting.eta, "nu": resting.nu, **initial}
         return self._given(as_state(initial))
+
+    def _resting(self) -> State:
+        """Return the state of a vessel that lies still or sails steadily."""
+        if not self.large:
+            return State()
+        return State([0, 0, 0, 0, 0, self.system.heading], [self.system.speed, 0, 0, 0, 0, 0])
 
     def _given(self, state: State) -> tuple[Array, Array, float]:
         r = self.realisations
@@ -116,17 +155,28 @@ class Engine:
 
     def _steady(self) -> tuple[Array, Array, float]:
         y = np.zeros((self.realisations, 12))
-        y[:, :6] = mean_position(self.system)
+        y[:, :6] = mean_position(self.about)
         if self.seaway is None:
-            return y, self.scheme.rest(y[:, 6:]), 0.0
+            return self._in_world(y), self.scheme.rest(y[:, 6:]), 0.0
         w, a = self.seaway.frequency, self.seaway.amplitude
-        X = self.seaway.response(self.system)
+        X = self.seaway.response(self.about)
+        V = 1j * w[:, None] * X - self.system.speed * X @ TURNING.T
         y[:, :6] += combine_harmonics(a, X)
-        y[:, 6:] = combine_harmonics(a, 1j * w[:, None] * X)
-        return y, self.scheme.steady(w, X, a), 0.0
+        y[:, 6:] = combine_harmonics(a, V)
+        return self._in_world(y), self.scheme.steady(w, V, a), 0.0
+
+    def _in_world(self, y: Array) -> Array:
+        """Turn displacements from the steady frame, which begins at the origin, into poses and whole velocities."""
+        if not self.large:
+            return y
+        c, s = np.cos(self.system.heading), np.sin(self.system.heading)
+        y[:, :2] = y[:, :2] @ np.array([[c, s], [-s, c]])
+        y[:, 5] += self.system.heading
+        y[:, 6] += self.system.speed
+        return y
 
 
-def make_engine(vessel: Vessel, sea: Sea | None, *, dt: float, method: str, ramp: float) -> Engine:
+def make_engine(vessel: Vessel, sea: Sea | None, *, dt: float, method: str, ramp: float, motions: str | None) -> Engine:
     """Bind a vessel and a sea to a time step.
 
     Raises
@@ -139,9 +189,16 @@ def make_engine(vessel: Vessel, sea: Sea | None, *, dt: float, method: str, ramp
     positive(dt, "dt", "s")
     if not (np.isfinite(ramp) and ramp >= 0.0):
         raise InputError(f"ramp: a time >= 0 in s expected, {ramp!r} found.")
-    system = assemble(vessel)
-    scheme = make_scheme(system, float(dt), method)
-    return Engine(system, scheme, None if sea is None else meet(system, sea), float(dt), float(ramp))
+    bound = bind_loads(vessel)
+    large = are_large(vessel.names, bound, motions)
+    system = assemble(vessel, bound=bound, large=large)
+    about = assemble(vessel, bound=bound) if large else system
+    seaway = None if sea is None else meet(system, sea, large=large)
+    if large:
+        scheme: Scheme = large_scheme(system, sea, dt=float(dt), method=method, ramp=float(ramp))
+    else:
+        scheme = make_scheme(system, float(dt), method)
+    return Engine(system, about, scheme, seaway, float(dt), float(ramp), large)
 
 
 def ramp_factor(t: Array, ramp: float) -> Array:

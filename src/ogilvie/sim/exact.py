@@ -8,9 +8,10 @@ from numba import njit
 from numpy.typing import NDArray
 
 from ogilvie.loads.base import MemoryModel
-from ogilvie.sim.dynamics import FAST
+from ogilvie.sim.dynamics import COLUMNS, FAST
 from ogilvie.sim.integrate import exact_step
-from ogilvie.sim.statespace import harmonic_states
+from ogilvie.sim.packed import harmonic_states
+from ogilvie.sim.scheme import Interval
 from ogilvie.sim.system import LinearSystem, warn_of_growth
 
 Array = NDArray[Any]
@@ -33,6 +34,7 @@ class ExactScheme:
     step: Array
     now: Array
     model: MemoryModel
+    columns: int = COLUMNS
 
     @classmethod
     def of(cls, system: LinearSystem, dt: float) -> "ExactScheme":
@@ -58,25 +60,13 @@ class ExactScheme:
         """Return the memory (r, k) of vessels that were at rest."""
         return np.zeros((len(nu), self.memory_size))
 
-    def steady(self, omega: Array, response: ComplexArray, amplitude: ComplexArray) -> Array:
+    def steady(self, omega: Array, velocity: ComplexArray, amplitude: ComplexArray) -> Array:
         """Return the memory (r, k) of harmonic motions at t = 0; see :class:`ogilvie.sim.scheme.Scheme`."""
-        return harmonic_states(self.model, omega, response, amplitude)
+        return harmonic_states(self.model, omega, velocity, amplitude)
 
-    def advance(
-        self,
-        y: Array,
-        memory: Array,
-        wave: Array,
-        external: Array,
-        *,
-        row: int,
-        steps: int,
-        first: int,
-        stride: int,
-        out: Array,
-    ) -> int:
+    def advance(self, y: Array, memory: Array, wave: Array, external: Array, at: Interval, out: Array) -> int:
         """Advance in place; see :class:`ogilvie.sim.scheme.Scheme`."""
-        return _run(self.step, self.now, y, memory, wave, external, row, steps, first, stride, out)
+        return _run(self.step, self.now, y, memory, wave, external, at.row, at.steps, at.first, at.stride, out)
 
 
 @njit(cache=True, nogil=True, fastmath=FAST)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ogilvie.sim.dynamics import FAST
 from ogilvie.sim.seaway import Seaway
-from ogilvie.sim.system import LinearSystem
+from ogilvie.sim.system import TURNING, LinearSystem
 
 Array = NDArray[Any]
 
@@ -37,7 +37,7 @@ class LoadForce:
     constant: Array
     column: int
 
-    def fill(self, rows: Array, wave: Array, first: int, step: int, out: Array) -> None:
+    def fill(self, rows: Array, wave: Array, first: int, step: int, out: Array, *, t: Array, realisation: int) -> None:
         """Write the forces (n, 6) at the recorded rows (n, 24); row i belongs to row first + i step of `wave`."""
         _fill(rows, self.matrix, self.span[0], self.span[1], self.constant, wave, first, step, self.column, out)
 
@@ -47,7 +47,8 @@ def load_forces(system: LinearSystem, seaway: Seaway | None) -> Sequence[LoadFor
     columns = {} if seaway is None else seaway.columns()
     forces = []
     for name, term in zip(system.names, system.terms, strict=True):
-        parts = [term.stiffness, term.damping, term.added_mass, np.eye(6) * (term.memory is not None)]
+        damping = term.damping + system.speed * TURNING.T @ term.added_mass
+        parts = [term.stiffness, damping, term.added_mass, np.eye(6) * (term.memory is not None)]
         matrix = -np.concatenate(parts, axis=1)
         used = np.flatnonzero(matrix.any(axis=0))
         span = (int(used[0]), int(used[-1]) + 1) if len(used) else (0, 0)

@@ -107,21 +107,26 @@ def exact_step(A: Array, G: Array, dt: float) -> tuple[Array, Array]:
     return transition, np.einsum("dnm,dk->nkm", phi, stencil)
 
 
-def step_matrix(inverse_mass: Array, stiffness: Array, damping: Array, memory: MemoryStep, dt: float) -> Array:
+def step_matrix(
+    inverse_mass: Array, stiffness: Array, damping: Array, memory: MemoryStep, dt: float, speed: float = 0.0
+) -> Array:
     """Return the matrix (12 + n, 12 + n) by which one step multiplies (eta, nu, x) without outer forces."""
     n = len(memory.transition)
     I = np.eye(12 + n)
     eta, nu, x = I[:6], I[6:12], I[12:]
-    v, a = np.zeros((2, 4, 6, 12 + n))
+    rate, v, a = np.zeros((3, 4, 6, 12 + n))
     for i, h in enumerate((0.0, 0.5 * dt, 0.5 * dt, dt)):
         v[i] = nu + h * a[i - 1] if i else nu
-        force = stiffness @ (eta + h * v[i - 1] if i else eta) + damping @ v[i] + memory.output[i] @ x
+        pose = eta + h * rate[i - 1] if i else eta
+        rate[i] = v[i]
+        rate[i, 1:3] += speed * pose[[5, 4]] * [[1.0], [-1.0]]
+        force = stiffness @ pose + damping @ v[i] + memory.output[i] @ x
         for j in range(i):
             force = force + memory.coupling[i, j] @ v[j]
         a[i] = -inverse_mass @ force
     w = dt * np.array([1.0, 2.0, 2.0, 1.0]) / 6.0
     following = memory.transition @ x + sum(s @ u for s, u in zip(memory.source, v, strict=True))
-    return np.concatenate([eta + np.einsum("i,iab->ab", w, v), nu + np.einsum("i,iab->ab", w, a), following])
+    return np.concatenate([eta + np.einsum("i,iab->ab", w, rate), nu + np.einsum("i,iab->ab", w, a), following])
 
 
 def refuse_unstable_step(growth: Callable[[float], float], dt: float) -> None:

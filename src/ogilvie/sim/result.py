@@ -14,7 +14,7 @@ from ogilvie.errors import InputError
 from ogilvie.hydro.schema import DOFS
 
 Array = NDArray[Any]
-VARIABLES = ("eta", "nu", "acceleration", "elevation", "forces")
+VARIABLES = ("eta", "nu", "acceleration", "elevation", "forces", "signals")
 
 _ABOUT = {
     "eta": ("motion about the steady frame of the vessel", "m, rad"),
@@ -22,9 +22,23 @@ _ABOUT = {
     "acceleration": ("acceleration", "m/s2, rad/s2"),
     "elevation": ("elevation of the undisturbed sea at the steady frame's origin", "m"),
 }
+_ABOUT_LARGE = {
+    "eta": ("pose in the world", "m, rad"),
+    "nu": ("velocity in body axes", "m/s, rad/s"),
+    "acceleration": ("rate of the velocity in body axes", "m/s2, rad/s2"),
+    "elevation": ("elevation of the undisturbed sea at O", "m"),
+}
 
 
-def to_dataset(series: Mapping[str, Array], time: Array, *, batched: bool, seeds: Sequence[int]) -> xr.Dataset:
+def to_dataset(
+    series: Mapping[str, Array],
+    time: Array,
+    *,
+    batched: bool,
+    seeds: Sequence[int],
+    large: bool = False,
+    signals: Mapping[str, str] | None = None,
+) -> xr.Dataset:
     """Return the result of a run.
 
     Parameters
@@ -37,6 +51,10 @@ def to_dataset(series: Mapping[str, Array], time: Array, *, batched: bool, seeds
         Whether the result has an axis of realisations.
     seeds : sequence of int
         Of the realisations, if known.
+    large : bool
+        Whether motions are poses in the world.
+    signals : mapping of str to str, optional
+        Units of the signals among the series.
     """
     coords: dict[str, Any] = {"time": ("time", time, {"units": "s"}), "dof": list(DOFS)}
     number = len(next(iter(series.values()))) if series else 0
@@ -46,8 +64,10 @@ def to_dataset(series: Mapping[str, Array], time: Array, *, batched: bool, seeds
             coords["seed"] = ("realisation", np.asarray(seeds))
     dims = ("realisation", "time", "dof") if batched else ("time", "dof")
     data = {}
+    about = _ABOUT_LARGE if large else _ABOUT
+    named = {key: (key.replace("_", " "), unit) for key, unit in (signals or {}).items()}
     for key, values in series.items():
-        long_name, units = _ABOUT.get(key, (f"force of {key.removeprefix('force_')} on the body", "N, N m"))
+        long_name, units = (about | named).get(key, (f"force of {key.removeprefix('force_')} on the body", "N, N m"))
         one = values if batched else values[0]
         data[key] = (dims[: one.ndim], one, {"long_name": long_name, "units": units})
     return xr.Dataset(data, coords=coords)

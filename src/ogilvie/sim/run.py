@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 from ogilvie.errors import ConvergenceError, InputError
 from ogilvie.hydro.progress import tracked
 from ogilvie.hydro.schema import DOFS
-from ogilvie.sim.dynamics import COLUMNS
 from ogilvie.sim.engine import Engine, Initial, first_step
-from ogilvie.sim.forces import LoadForce, load_forces
+from ogilvie.sim.forces import LoadForce
+from ogilvie.sim.large_forces import LargeLoadForce
+from ogilvie.sim.scheme import Interval
 
 Array = NDArray[Any]
 #: What a recorded row holds in its first 18 columns.
@@ -35,7 +36,7 @@ class Run:
     origin: float
     steps: int
     stride: int
-    loads: Sequence[LoadForce]  # whose forces are wanted
+    loads: Sequence[LoadForce | LargeLoadForce]  # whose forces are wanted
     series: dict[str, Array]  # (r, rows, 6), or (r, rows) for the elevation
     rows: int = 0  # that are done
 
@@ -45,11 +46,13 @@ class Run:
         y, memory, time = engine.start(initial)
         first, origin = first_step(time, engine.dt)
         steps = max(1, int(np.ceil(duration / engine.dt - 1e-9)))
-        loads = load_forces(engine.system, engine.seaway) if "forces" in names else ()
+        loads = engine.load_forces() if "forces" in names else ()
         wanted = [key for key in MOTIONS if key in names] + [f"force_{f.name}" for f in loads]
+        signals = engine.signals if "signals" in names else ()
         shape = (engine.realisations, steps // stride + 1)
-        _check_memory(shape[0] * shape[1], 6 * len(wanted) + 1)
+        _check_memory(shape[0] * shape[1], 6 * len(wanted) + 1 + len(signals))
         series = {key: np.empty((*shape, 6)) for key in wanted}
+        series |= {name: np.empty(shape) for name, _ in signals}
         if "elevation" in names and engine.seaway is not None:
             series["elevation"] = np.empty(shape)
         return cls(engine, y, memory, first, origin, steps, stride, loads, series)
@@ -104,26 +107,22 @@ class Run:
     def _advance(self, r: int, block: int, phases: NDArray[np.complex128], offset: int, done: int, count: int) -> None:
         engine, rows = self.engine, self._rows(done, count)
         wave = engine.wave_series(r, block, self.origin, phases)
-        motion = np.empty((rows.stop - rows.start, COLUMNS))
-        engine.scheme.advance(
-            self.y[r],
-            self.memory[r],
-            wave,
-            engine.system.constant,
-            row=2 * offset,
-            steps=count,
-            first=done,
-            stride=self.stride,
-            out=motion,
-        )
+        motion = np.empty((rows.stop - rows.start, engine.scheme.columns))
+        at = Interval(count, 2 * offset, done, self.stride, self.first + done, self.origin, r)
+        engine.scheme.advance(self.y[r], self.memory[r], wave, engine.system.constant, at, motion)
         for i, key in enumerate(MOTIONS):
             if key in self.series:
                 self.series[key][r, rows] = motion[:, 6 * i : 6 * i + 6]
         begin, step = 2 * (offset + (-done) % self.stride), 2 * self.stride
+        t = self.origin + (self.first + self.stride * np.arange(rows.start, rows.stop)) * engine.dt
         if "elevation" in self.series:
-            self.series["elevation"][r, rows] = wave[begin : 2 * (offset + count) : step, 6]
+            at_rest = wave[begin : 2 * (offset + count) : step, 6]
+            self.series["elevation"][r, rows] = engine.elevation(r, t, motion) if engine.large else at_rest
         for load in self.loads:
-            load.fill(motion, wave, begin, step, self.series[f"force_{load.name}"][r, rows])
+            load.fill(motion, wave, begin, step, self.series[f"force_{load.name}"][r, rows], t=t, realisation=r)
+        for k, (name, _) in enumerate(engine.signals):
+            if name in self.series:
+                self.series[name][r, rows] = motion[:, engine.scheme.columns - len(engine.signals) + k]
 
     def _rows(self, done: int, count: int) -> slice:
         """Rows that the steps done, ..., done + count - 1 write."""

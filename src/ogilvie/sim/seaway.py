@@ -30,6 +30,9 @@ class Seaway:
         Of the wave loads.
     batched : bool
         Whether the sea has an axis of realisations.
+    tabulated : tuple of bool
+        Whether the force of each wave load comes from a table made before the run, for the vessel's mean position.
+    sea : Sea
     """
 
     frequency: Array
@@ -37,19 +40,23 @@ class Seaway:
     force: ComplexArray
     names: tuple[str, ...]
     batched: bool
+    tabulated: tuple[bool, ...]
+    sea: Sea
 
     @property
     def transfer(self) -> ComplexArray:
         """Coefficients (n, 7 or more): total force (6), elevation, then the force of each load if there are several."""
         n = len(self.frequency)
-        parts = [self.force.sum(axis=0), np.ones((n, 1), dtype=complex)]
-        if len(self.names) > 1:
-            parts.extend(self.force)
+        force = self.force[np.array(self.tabulated, dtype=bool)]
+        parts = [force.sum(axis=0), np.ones((n, 1), dtype=complex)]
+        if len(force) > 1:
+            parts.extend(force)
         return np.ascontiguousarray(np.concatenate(parts, axis=1))
 
     def columns(self) -> dict[str, int]:
         """Where the six columns of each wave load's force begin in :attr:`transfer`."""
-        return {name: 0 if len(self.names) == 1 else 7 + 6 * i for i, name in enumerate(self.names)}
+        names = [name for name, yes in zip(self.names, self.tabulated, strict=True) if yes]
+        return {name: 0 if len(names) == 1 else 7 + 6 * i for i, name in enumerate(names)}
 
     def response(self, system: LinearSystem) -> ComplexArray:
         """Return the stationary motion (n, 6) per metre of amplitude: Z(w_e)^-1 F.
@@ -70,7 +77,7 @@ class Seaway:
         return np.linalg.solve(Z, F[..., None])[..., 0]
 
 
-def meet(system: LinearSystem, sea: Sea) -> Seaway:
+def meet(system: LinearSystem, sea: Sea, *, large: bool) -> Seaway:
     """Return a sea as the vessel meets it.
 
     Raises
@@ -88,6 +95,8 @@ def meet(system: LinearSystem, sea: Sea) -> Seaway:
         force=np.array(force) if force else np.zeros((0, len(sea.omega), 6), dtype=complex),
         names=tuple(name for name, _ in loads),
         batched=sea.amplitude.ndim == 2,
+        tabulated=tuple(not large or system.terms[system.names.index(name)].encounter is None for name, _ in loads),
+        sea=sea,
     )
 
 

@@ -26,6 +26,7 @@ def simulate(
     ramp: float = 0.0,
     initial: Initial = None,
     method: str = "rk4",
+    motions: str | None = None,
     output_step: float | None = None,
     variables: Sequence[str] = VARIABLES,
     progress: bool | None = None,
@@ -50,10 +51,14 @@ def simulate(
         and ``"rest"`` otherwise.
     method : {"rk4", "exact"}
         Classical Runge-Kutta method, or the matrix exponential of a vessel with a state-space memory (any dt).
+    motions : {"small", "large"}, optional
+        ``"small"``: linear equations about the steady frame; eta is the displacement from it and nu the velocity in body axes
+        less the steady speed. ``"large"``: any heading, roll and pitch; eta is the pose in the world and nu the whole velocity
+        in body axes. By default ``"large"`` where a load is not linear, steers or holds the vessel, or water flows past it.
     output_step : float, optional
         Time between outputs, s, a multiple of dt; dt by default.
     variables : sequence of str
-        What to keep, out of eta, nu, acceleration, elevation, forces.
+        What to keep, out of eta, nu, acceleration, elevation, forces, signals (of control laws: rudder angle, thrust ...).
     progress : bool, optional
         Show a progress bar; by default in a terminal, when the run takes more than 2 s.
 
@@ -73,12 +78,14 @@ def simulate(
 
     Notes
     -----
-    (M + A_inf) nu' + D nu + C eta + mu(t) = F_wave(t) + F_const, eta' = nu, in the steady frame that moves with the vessel's
-    speed and heading and is at the origin of the sea at t = 0; mu = int K(s) nu(t - s) ds, a state space or a convolution.
+    Small motions at zero speed: (M + A_inf) nu' + D nu + C eta + mu(t) = F_wave(t) + F_const, eta' = nu, in the steady frame
+    that moves with the vessel's speed and heading and is at the origin of the sea at t = 0; mu = int K(s) nu(t - s) ds, a state
+    space or a convolution. With speed :class:`ogilvie.sim.system.LinearSystem` tells what is added; the equations of large
+    motions, which tend to those of small ones, stand in :mod:`ogilvie.sim.large_kernel` (docs/theory/sailing.md).
 
     References
     ----------
-    Cummins (1962); Ogilvie (1964); paper A (Yuan), Eq. (1).
+    Cummins (1962); Ogilvie (1964); paper A (Yuan), Eq. (1); paper C (Vu), Eqs. (9), (27).
 
     Examples
     --------
@@ -94,23 +101,24 @@ def simulate(
     began = clock.perf_counter()
     positive(duration, "duration", "s")
     names = check_variables(variables)
-    engine = make_engine(vessel, sea, dt=dt, method=method, ramp=ramp)
+    engine = make_engine(vessel, sea, dt=dt, method=method, ramp=ramp, motions=motions)
     run = Run.begin(engine, initial, duration, _stride(output_step, dt), names)
     trouble = run.go(progress)
     seeds = () if sea is None else sea.seeds
     batched = engine.seaway is not None and engine.seaway.batched
     done = {key: values[:, : run.rows] for key, values in run.series.items()}
-    result = to_dataset(done, run.times(), batched=batched, seeds=seeds)
+    result = to_dataset(done, run.times(), batched=batched, seeds=seeds, large=engine.large, signals=dict(engine.signals))
     result.attrs = {
         "dt": float(dt),
         "method": method,
+        "motions": "large" if engine.large else "small",
         "ramp": float(ramp),
         "speed": vessel.speed,
         "heading": vessel.heading,
         "complete": int(trouble is None),
         "seeds": [int(s) for s in seeds],
         "versions": versions(),
-        "case_hash": case_hash(vessel, sea, duration, dt, ramp, initial, method, output_step),
+        "case_hash": case_hash(vessel, sea, duration, dt, ramp, initial, method, motions, output_step),
         "wall_time": clock.perf_counter() - began,
     }
     if isinstance(trouble, ConvergenceError):

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ogilvie.errors import ConvergenceError, InputError
-from ogilvie.sim.dynamics import COLUMNS
 from ogilvie.sim.engine import Initial, first_step, make_engine
+from ogilvie.sim.scheme import Interval
 from ogilvie.sim.state import State
 from ogilvie.sim.vessel import Vessel
 from ogilvie.waves.field import Sea
@@ -32,6 +32,8 @@ class Stepper:
     initial : State, mapping or str, optional
         See :func:`ogilvie.simulate`.
     method : {"rk4", "exact"}
+    motions : {"small", "large"}, optional
+        See :func:`ogilvie.simulate`.
 
     Raises
     ------
@@ -58,11 +60,12 @@ class Stepper:
         ramp: float = 0.0,
         initial: Initial = None,
         method: str = "rk4",
+        motions: str | None = None,
     ) -> None:
-        self._engine = make_engine(vessel, sea, dt=dt, method=method, ramp=ramp)
+        self._engine = make_engine(vessel, sea, dt=dt, method=method, ramp=ramp, motions=motions)
         if self._engine.realisations > 1:
             raise InputError(f"Stepper: one realisation expected, {self._engine.realisations} found. Take one: sea.isel(0).")
-        self._record = np.empty((1, COLUMNS))
+        self._record = np.empty((1, self._engine.scheme.columns))
         self._block = -1
         self._wave = np.zeros((1, 7))
         self.init(initial)
@@ -116,7 +119,8 @@ class Stepper:
             self._wave = engine.wave_series(0, block, self._origin, engine.block_phases(block, self._origin))
             self._block = block
         row = 2 * (self._step - block * engine.block)
-        engine.scheme.advance(self._y, self._memory, self._wave, force, row=row, steps=1, first=0, stride=1, out=self._record)
+        at = Interval(1, row, number=self._step, origin=self._origin)
+        engine.scheme.advance(self._y, self._memory, self._wave, force, at, self._record)
         self._step += 1
         if not np.isfinite(self._y).all():
             raise ConvergenceError(

@@ -1,7 +1,7 @@
 """The linear equations of motion of a vessel, gathered from its loads."""
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -17,12 +17,25 @@ from ogilvie.sim.vessel import Vessel
 
 Array = NDArray[Any]
 ComplexArray = NDArray[Any]
+#: L: velocity in body axes nu = xi' - U L xi of a displacement xi from a frame that advances at U along x.
+TURNING = np.zeros((6, 6))
+TURNING[1, 5], TURNING[2, 4] = 1.0, -1.0
+TURNING.setflags(write=False)
 _GROWTH = 1e-5  # 1/s, above the rounding of the double zero poles of a free vessel
 
 
 @dataclass(frozen=True, eq=False)
 class LinearSystem:
-    """(M + A) nu' + D nu + C eta + mu = F_const + F_wave(t), eta' = nu, in the steady frame of the vessel.
+    """Equations of small motions about the steady frame that advances at the vessel's speed U and heading.
+
+    Notes
+    -----
+    With L (:data:`TURNING`) and the momentum p_m of the fluid memory, p_m' = mu,
+
+        eta' = nu + U L eta
+        (M + A) nu' + (D + U (M L + L^T A)) nu + C eta + mu + U L^T p_m = F_const + F_wave(t)
+
+    which for harmonic motions is the standard speed dependence of added mass and damping (docs/theory/speed.md).
 
     Parameters
     ----------
@@ -33,7 +46,7 @@ class LinearSystem:
     constant : (6,) array
         N, N m.
     memory : MemoryModel or MemoryKernel
-        A model without states where no load has a memory.
+        Of mu alone, without U L^T p_m; a model without states where no load has a memory.
     names : tuple of str
         Of the loads.
     terms : tuple of Terms
@@ -63,24 +76,48 @@ class LinearSystem:
         """(M + A)^-1 (6, 6)."""
         return np.linalg.inv(self.mass)
 
+    @property
+    def damping_at_speed(self) -> Array:
+        """D + U (M L + L^T A) (6, 6), what multiplies nu."""
+        return self.damping + self.speed * (self.body_mass @ TURNING + TURNING.T @ self.added_mass)
+
+    @cached_property
+    def memory_at_speed(self) -> MemoryModel | MemoryKernel:
+        """Memory whose force is mu + U L^T p_m; p_m = C A^-1 x, or the convolution with the integral of K."""
+        memory, carry = self.memory, self.speed * TURNING.T
+        if self.speed == 0.0:
+            return memory
+        if isinstance(memory, MemoryModel):
+            return replace(memory, C=memory.C + carry @ momentum_output(memory))
+        return MemoryKernel(memory.t, memory.K + carry @ memory.spline.antiderivative()(memory.t))
+
     def memory_transfer(self, omega: ArrayLike) -> ComplexArray:
         """Return K_hat(i omega) (n, 6, 6) of the fluid memory as the time loop uses it."""
         w = np.atleast_1d(np.asarray(omega, dtype=float))
-        if isinstance(self.memory, MemoryKernel):
-            return kernel_transform(self.memory, w)
-        return self.memory.C @ resolvent(self.memory.A, w, self.memory.B)
+        memory = self.memory_at_speed
+        if isinstance(memory, MemoryKernel):
+            return kernel_transform(memory, w)
+        return memory.C @ resolvent(memory.A, w, memory.B)
 
     def impedance(self, omega: ArrayLike) -> ComplexArray:
-        """Return Z(omega) (n, 6, 6) = -omega^2 (M + A) + i omega (D + K_hat(i omega)) + C."""
-        w = np.atleast_1d(np.asarray(omega, dtype=float))[:, None, None]
-        return -(w**2) * self.mass + 1j * w * (self.damping + self.memory_transfer(w[:, 0, 0])) + self.stiffness
+        """Return Z(omega) (n, 6, 6) with Z eta = F for harmonic motions at the signed encounter frequency omega.
+
+        Notes
+        -----
+        Z = (i omega (M + A) + D + U (M L + L^T A) + K_hat_U)(i omega - U L) + C; -omega^2 (M + A) + i omega (D + K_hat) + C at
+        zero speed.
+        """
+        s = 1j * np.atleast_1d(np.asarray(omega, dtype=float))[:, None, None]
+        inner = s * self.mass + self.damping_at_speed + self.memory_transfer(s[:, 0, 0].imag)
+        return inner @ (s * np.eye(6) - self.speed * TURNING) + self.stiffness
 
     @property
     def state_space(self) -> MemoryModel:
         """The fluid memory as a state space, in real modal form; of order 0 where there is none."""
-        if isinstance(self.memory, MemoryKernel):
+        memory = self.memory_at_speed
+        if isinstance(memory, MemoryKernel):
             raise InputError("fluid memory: a state-space model expected, a Convolution found.")
-        return self.memory
+        return memory
 
     @cached_property
     def poles(self) -> Array:
@@ -93,23 +130,29 @@ class LinearSystem:
         W, n = self.inverse_mass, len(A)
         return np.block(
             [
-                [np.zeros((6, 6)), np.eye(6), np.zeros((6, n))],
-                [-W @ self.stiffness, -W @ self.damping, -W @ C],
+                [self.speed * TURNING, np.eye(6), np.zeros((6, n))],
+                [-W @ self.stiffness, -W @ self.damping_at_speed, -W @ C],
                 [np.zeros((n, 6)), B, A],
             ]
         )
 
 
-def assemble(vessel: Vessel) -> LinearSystem:
-    """Return the equations of motion of a vessel.
+def bind_loads(vessel: Vessel) -> tuple[Terms, ...]:
+    """Return what each load of a vessel adds to the equations of motion."""
+    surroundings = Surroundings(vessel.body, vessel.speed, vessel.heading)
+    return tuple(load.bind(surroundings) for load in vessel.loads)
+
+
+def assemble(vessel: Vessel, *, bound: tuple[Terms, ...] | None = None, large: bool = False) -> LinearSystem:
+    """Return the equations of motion of a vessel; for large motions those parts that are linear all the same.
 
     Raises
     ------
     InputError
         Mass plus added mass not positive definite; damping ratio of a degree of freedom without stiffness.
     """
-    surroundings = Surroundings(vessel.body, vessel.speed, vessel.heading)
-    terms = tuple(load.bind(surroundings) for load in vessel.loads)
+    bound = bind_loads(vessel) if bound is None else bound
+    terms = tuple(term if large or term.small is None else term.small for term in bound)
     memories = [t.memory for t in terms if t.memory is not None]
     if len(memories) > 1:
         raise InputError(f"Vessel: at most one load with fluid memory expected, {len(memories)} found.")
@@ -153,9 +196,11 @@ def warn_of_growth(system: LinearSystem) -> None:
     if rate > _GROWTH:
         w = abs(system.poles[system.poles.real.argmax()].imag)
         how = f"oscillates at {w:.3g} rad/s and grows" if w > 0.0 else "grows"
+        why = "Check restoring (GM) and damping; if it comes with the memory model, that model is not passive."
+        if system.speed > 0.0:
+            why = "At speed the fluid's own (Munk) moment turns a hull without lift off its course: add HullLift or steering."
         warnings.warn(
-            f"Vessel: a motion {how} by itself, e-fold in {1.0 / rate:.3g} s. Check restoring (GM) and damping; if it comes "
-            "with the memory model, that model is not passive.",
+            f"Vessel: a motion {how} by itself, e-fold in {1.0 / rate:.3g} s. {why}",
             OgilvieWarning,
             stacklevel=5,
         )
@@ -168,19 +213,20 @@ def _with_damping_ratios(system: LinearSystem) -> LinearSystem:
         D = np.zeros(6)
         for i in np.flatnonzero(term.damping_ratio):
             D[i] = term.damping_ratio[i] * critical_damping(system, int(i))
-        terms.append(_replace_damping(term, np.diag(D)) if D.any() else term)
+        terms.append(replace(term, damping=term.damping + np.diag(D), damping_ratio=np.zeros(6)) if D.any() else term)
     damping = _total([t.damping for t in terms], (6, 6))
-    return LinearSystem(**{**vars(system), "damping": damping, "terms": tuple(terms)})
-
-
-def _replace_damping(term: Terms, extra: Array) -> Terms:
-    return Terms(**{**vars(term), "damping": term.damping + extra, "damping_ratio": np.zeros(6)})
+    return replace(system, damping=damping, terms=tuple(terms))
 
 
 def _memory(found: list[MemoryModel | MemoryKernel]) -> MemoryModel | MemoryKernel:
     if not found:
         return MemoryModel(np.zeros((0, 0)), np.zeros((0, 6)), np.zeros((6, 0)))
     return modal_memory(found[0]) if isinstance(found[0], MemoryModel) else found[0]
+
+
+def momentum_output(model: MemoryModel) -> Array:
+    """Return C A^-1 (6, n): the momentum p_m = C A^-1 x of the fluid memory, p_m' = mu since K_hat(0) = -C A^-1 B = 0."""
+    return np.linalg.solve(model.A.T, model.C.T).T if len(model.A) else np.zeros((6, 0))
 
 
 def _total(arrays: list[Array], shape: tuple[int, ...]) -> Array:
