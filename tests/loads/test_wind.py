@@ -145,7 +145,7 @@ def test_blendermann_in_the_axes_of_the_publication(ship_type):
         u, v = (to_z_down(nu) - air)[:2]
         theirs = blendermann_z_down(ship_type, u, v, 9.0, -4.0, A_F, A_L, L)
         scale = 0.5 * AIR * (u**2 + v**2) * np.array([A_F, A_L, 1.0, A_L * 9.0, 1.0, A_L * L])
-        assert np.abs((to_z_down(ours) - theirs) / scale).max() < 1e-3  # resampling to whole degrees
+        assert np.abs((to_z_down(ours) - theirs) / scale).max() < 3e-4  # resampling to whole degrees
 
 
 def test_isherwood_reproduces_its_table():
@@ -164,12 +164,12 @@ def test_isherwood_reproduces_its_table():
 
 
 def test_isherwood_and_blendermann_agree_on_a_cargo_vessel():
-    """Two independent regressions of model tests: within a third of the largest coefficient at every angle."""
+    """Two independent regressions of model tests: within 36 % of the largest coefficient at every angle (surge; sway 12 %)."""
     other = blendermann_wind("cargo vessel, loaded", centroid_height=8.0, centroid_x=-2.0, **AREAS)
     b = np.linspace(0.0, pi, 37)
-    for k in (0, 1, 3):
+    for k, share in ((0, 0.36), (1, 0.13), (3, 0.22)):
         one, two = CARGO(b)[:, k], other(b)[:, k]
-        assert np.abs(one - two).max() < 0.4 * np.abs(two).max()
+        assert np.abs(one - two).max() < share * np.abs(two).max()
 
 
 def test_isherwood_has_the_lever_of_the_centroid():
