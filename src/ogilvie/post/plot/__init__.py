@@ -6,6 +6,7 @@ from ogilvie.post.plot._overview import overview
 from ogilvie.post.plot._radiation import coefficients, retardation
 from ogilvie.post.plot._style import custom, show, to_png, write
 from ogilvie.post.plot._waves import excitation, rao, spectrum
+from ogilvie.post.plot._wind import wind_coefficients
 
 __all__ = [
     "coefficients",
@@ -20,5 +21,6 @@ __all__ = [
     "show",
     "spectrum",
     "to_png",
+    "wind_coefficients",
     "write",
 ]
