@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ogilvie.loads.base import ComplexArray
 from ogilvie.loads.kernel import ETA, NU_R, ROTATION, TIME, Kernel, load_kernel
 from ogilvie.waves.field import Sea
-from ogilvie.waves.sincos import sine_cosine
+from ogilvie.waves.sincos import sines_and_cosines
 
 Array = NDArray[Any]
 _FAST = {"reassoc", "contract", "nsz", "arcp"}
@@ -55,7 +55,15 @@ def encounter_kernel(
     kx, ky = sea.wavenumber * np.cos(sea.direction), sea.wavenumber * np.sin(sea.direction)
     data = np.concatenate([header, sea.omega, kx, ky, table.ravel()])
     own = np.concatenate([np.atleast_2d(sea.amplitude), np.atleast_2d(sea.phase)], axis=1)
-    return Kernel(_wave_force, data, own)
+    return Kernel(_wave_force, data, own, _limits(grid, periodic, speeds), steady=False)
+
+
+def _limits(grid: Array, periodic: bool, speeds: Array) -> str:
+    lo, hi = np.degrees(grid[[0, -1]])
+    parts = [] if periodic else [f"headings of the vessel {lo:.4g}..{hi:.4g} deg in this sea"]
+    if len(speeds) > 1:
+        parts.append(f"speeds through the water {speeds[0]:.4g}..{speeds[-1]:.4g} m/s")
+    return " and ".join(parts)
 
 
 def _heading_grid(headings: tuple[float, float] | None) -> tuple[Array, bool]:
@@ -105,7 +113,7 @@ def _wave_force(x, data, own, force):
     angle, sine, cosine, total = np.empty(n), np.empty(n), np.empty(n), np.zeros(6)
     for j in range(n):
         angle[j] = omega[j] * x[TIME] - kx[j] * x[ETA] - ky[j] * x[ETA + 1] + own[n + j]
-    sine_cosine(angle, sine, cosine)
+    sines_and_cosines(angle, sine, cosine)
     for j in range(n):
         cosine[j] *= own[j]
         sine[j] *= own[j]

@@ -40,11 +40,17 @@ class Kernel:
     data : (n,) array
     own : (r, m) array, optional
         Numbers of each realisation; one row serves all.
+    limits : str
+        Where the force is known, for the error of a run that leaves it; the function gives NaN there.
+    steady : bool
+        Whether the force does not depend on time, so that its slopes tell about stability.
     """
 
     function: Any
     data: Array = field(default_factory=lambda: np.zeros(0))
     own: Array = field(default_factory=lambda: np.zeros((1, 0)))
+    limits: str = ""
+    steady: bool = True
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "data", _flat(self.data, 1))

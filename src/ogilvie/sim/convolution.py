@@ -218,7 +218,7 @@ def _run(
         if (first + i) % stride == 0:
             record(out, written, y, a, mu)
             written += 1
-        combine(dt, y, rate, v, a)
+        combine(dt, y, rate, a)
     memory[0] = count
     memory[1] = head
     return written

@@ -70,7 +70,7 @@ def stages(dt, speed, mechanics, wave, row, external, memory_force, y, eta, rate
 
 
 @njit(cache=True, nogil=True, fastmath=FAST)
-def combine(dt, y, rate, v, a):
+def combine(dt, y, rate, a):
     """Advance y by one step with the weights (1, 2, 2, 1) / 6."""
     w = dt / 6.0
     for p in range(6):

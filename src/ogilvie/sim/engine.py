@@ -103,8 +103,26 @@ class Engine:
         """Return the elevation (n,) of the undisturbed sea where O is, from recorded rows of large motions."""
         assert self.seaway is not None
         sea = self.seaway.sea if self.seaway.sea.amplitude.ndim == 1 else self.seaway.sea.isel(realisation)
-        zeta = sea.elevation(t, motion[:, 0], motion[:, 1])
+        good = np.isfinite(motion[:, :2]).all(axis=1)
+        zeta = np.full(len(t), np.nan)
+        zeta[good] = sea.elevation(t[good], motion[good, 0], motion[good, 1])
         return zeta * ramp_factor(t, self.ramp) if self.ramp > 0.0 else zeta
+
+    def explain(self, realisation: int, t: Array, eta: Array, nu: Array) -> str:
+        """Return which compiled load is not known where the vessel goes from its last two good rows, or nothing."""
+        if not isinstance(self.scheme, LargeMotions):
+            return ""
+        ahead = np.linspace(0.0, 3.0, 13)
+        times, poses, velocities = (x[-1] + np.multiply.outer(ahead, x[-1] - x[0]) for x in (t, eta, nu))
+        for which, (name, kernel) in enumerate(zip(self.scheme.forces.names, self.scheme.forces.kernels, strict=True)):
+            force = self.scheme.kernel_forces(which, realisation, times, poses, velocities)
+            if not np.isfinite(force).all():
+                place, heading = np.array2string(eta[-1, :5], precision=4), np.degrees(eta[-1, 5])
+                return (
+                    f"The load {name} is known for {kernel.limits or 'other poses'} only; the vessel had pose "
+                    f"{place} m, rad, heading {heading:.4g} deg and speed {nu[-1, 0]:.4g} m/s."
+                )
+        return ""
 
     def start(self, initial: Initial) -> tuple[Array, Array, float]:
         """Return y = (eta, nu) (r, 12), memory (r, k) and time (s) of the beginning.

@@ -68,10 +68,10 @@ class LargeMotions:
     ----------
     dt : float
         s.
-    frame : (11,) array
-        Speed U, heading psi_0, current in the world (3), constant force in the steady frame (6).
+    frame : (13,) array
+        Speed U, heading psi_0, current in the world (3), constant force in the steady frame (6), cos psi_0, sin psi_0.
     matrices : (5, 6, 6) array
-        (M + A)^-1, M, A, D, C.
+        (M + A)^-1, M, A, D, C, each transposed.
     packed : PackedMemory
         With the outputs mu and p_m.
     forces, laws : Compiled
@@ -101,11 +101,10 @@ class LargeMotions:
                 "or leave out what is not linear and simulate small motions."
             )
         current = np.sum([t.current for t in system.terms], axis=0) if system.terms else np.zeros(3)
-        frame = np.concatenate([[system.speed, system.heading], current, system.constant])
-        matrices = np.array(
-            [system.inverse_mass, system.body_mass, system.added_mass, system.damping, system.stiffness], dtype=float
-        )
-        packed = PackedMemory.of(system.memory, dt, momentum_output(system.memory))
+        frame = steady_frame(system.speed, system.heading, current, system.constant)
+        parts = (system.inverse_mass, system.body_mass, system.added_mass, system.damping, system.stiffness)
+        matrices = np.ascontiguousarray(np.array(parts, dtype=float).transpose(0, 2, 1))
+        packed = PackedMemory.of(system.memory, dt, momentum_output(system.memory)).turned()
         scheme = cls(float(dt), frame, matrices, packed, forces, laws, tuple(callbacks), _sampling(laws, packed.size, dt))
         scheme._refuse_unstable(system)
         return scheme
@@ -181,11 +180,11 @@ class LargeMotions:
         kernel = self.forces.kernels[which]
         one = Compiled((self.forces.names[which],), (kernel,))
         own = kernel.own[min(realisation, len(kernel.own) - 1)]
-        force, x = np.zeros((len(t), 6)), np.zeros(SITUATION)
+        force, x, trig = np.zeros((len(t), 6)), np.zeros(SITUATION), np.zeros(4)
         ranges = np.array([[0, len(kernel.data), 0, len(own)]], dtype=np.int64)
         for i in range(len(t)):
             x[ETA:NU], x[NU : NU + 6] = eta[i], nu[i]
-            situate(t[i], self.frame[2:5], x)
+            situate(t[i], self.frame[2:5], x, trig)
             add_kernels(one.functions, ranges, one.data, own, x, force[i])
         return force
 
@@ -207,7 +206,7 @@ class LargeMotions:
         slopes = np.zeros((2, 6, 6))
         course = np.zeros((2, 6))
         course[0, 5], course[1, 0] = self.frame[1], self.frame[0]
-        for which in range(len(self.forces.kernels)):
+        for which in [k for k, kernel in enumerate(self.forces.kernels) if kernel.steady]:
             for part, i in np.ndindex(2, 6):
                 h = 1e-4 * (1.0 if i < 3 else 0.1)
                 step = np.zeros((2, 2, 6))
@@ -219,6 +218,11 @@ class LargeMotions:
         c, s = np.cos(self.frame[1]), np.sin(self.frame[1])
         slopes[0, :, :2] = slopes[0, :, :2] @ np.array([[c, -s], [s, c]])
         return slopes[0], slopes[1]
+
+
+def steady_frame(speed: float, heading: float, current: Array, constant: Array) -> Array:
+    """Return the array `frame` of the kernels."""
+    return np.concatenate([[speed, heading], current, constant, [np.cos(heading), np.sin(heading)]])
 
 
 def _ranges(lengths: Sequence[int]) -> NDArray[np.int64]:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ogilvie.loads.base import Terms
 from ogilvie.loads.kernel import ETA, NU, SITUATION
 from ogilvie.sim.dynamics import FAST
-from ogilvie.sim.large import LargeMotions
+from ogilvie.sim.large import LargeMotions, steady_frame
 from ogilvie.sim.large_kernel import LARGE_COLUMNS, add_reference_forces, situate
 from ogilvie.sim.seaway import Seaway
 from ogilvie.sim.system import LinearSystem
@@ -50,9 +50,10 @@ class LargeLoadForce:
         table = np.zeros((n, 6))
         if self.column >= 0:
             table[:] = wave[first : first + n * step : step, self.column : self.column + 6][:n]
-        frame = np.concatenate([self.scheme.frame[:5], term.constant])
+        own = self.scheme.frame
+        frame = steady_frame(own[0], own[1], own[2:5], term.constant)
         if term.stiffness.any() or term.constant.any() or self.column >= 0 or term.damping.any():
-            _reference(frame, term.stiffness, term.damping, table, rows, t, out)
+            _reference(frame, np.ascontiguousarray(term.stiffness.T), term.damping, table, rows, t, out)
         out -= rows[:, 12:18] @ term.added_mass.T
         if term.memory is not None or term.added_mass.any():
             out += rows[:, 18:24]
@@ -88,12 +89,12 @@ def large_load_forces(system: LinearSystem, seaway: Seaway | None, scheme: Large
 
 @njit(cache=True, nogil=True, fastmath=FAST)
 def _reference(frame, C, D, table, rows, t, out):
-    x, g = np.zeros(SITUATION), np.empty(6)
+    x, trig, work = np.zeros(SITUATION), np.empty(4), np.empty(12)
     for i in range(len(rows)):
         x[ETA:NU] = rows[i, :6]
         x[NU : NU + 6] = rows[i, 6:12]
-        situate(t[i], frame[2:5], x)
-        add_reference_forces(t[i], frame, C, table, i, x, g, out[i])
+        situate(t[i], frame[2:5], x, trig)
+        add_reference_forces(t[i], frame, C, table, i, x, trig, work, out[i])
         for p in range(6):
             for q in range(6):
                 delta = x[NU + 6 + q] - (frame[0] if q == 0 else 0.0)

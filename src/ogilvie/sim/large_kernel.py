@@ -13,17 +13,21 @@ from numba import njit
 from ogilvie.loads.kernel import ETA, NU, NU_R, ROTATION, SITUATION, TIME
 from ogilvie.sim.dynamics import FAST, combine
 from ogilvie.sim.packed import advance_memory, memory_force
+from ogilvie.waves.sincos import sine_and_cosine
 
 #: Columns of a row of output: eta, nu, acceleration, radiation force without -A nu'; then the held forces and the signals.
 LARGE_COLUMNS = 24
 
 
 @njit(cache=True, nogil=True, fastmath=FAST)
-def situate(t, current, x):
-    """Fill in time, rotation and velocity through the water where pose and velocity are set."""
-    cf, sf = np.cos(x[ETA + 3]), np.sin(x[ETA + 3])
-    ct, st = np.cos(x[ETA + 4]), np.sin(x[ETA + 4])
-    cp, sp = np.cos(x[ETA + 5]), np.sin(x[ETA + 5])
+def situate(t, current, x, trig):
+    """Fill in time, rotation and velocity through the water where pose and velocity are set.
+
+    trig (4,) becomes sin phi, cos phi, sin theta, cos theta.
+    """
+    sf, cf = sine_and_cosine(x[ETA + 3])
+    st, ct = sine_and_cosine(x[ETA + 4])
+    sp, cp = sine_and_cosine(x[ETA + 5])
     x[TIME] = t
     R = x[ROTATION:]
     R[0], R[1], R[2] = cp * ct, -sp * cf + cp * st * sf, sp * sf + cp * st * cf
@@ -32,6 +36,7 @@ def situate(t, current, x):
     for p in range(3):
         x[NU_R + p] = x[NU + p] - (R[p] * current[0] + R[3 + p] * current[1] + R[6 + p] * current[2])
         x[NU_R + 3 + p] = x[NU + 3 + p]
+    trig[0], trig[1], trig[2], trig[3] = sf, cf, st, ct
 
 
 @njit(cache=True, nogil=True, fastmath=FAST)
@@ -43,69 +48,90 @@ def _cross(force, at, a, i, b, j):
 
 
 @njit(cache=True, nogil=True, fastmath=FAST)
-def _pose_rate(x, rate):
+def _add_product(turned, x, i, sign, out, j):
+    """out[j:j+6] += sign M x[i:i+6] with `turned` (6, 6), the transpose of M."""
+    s0 = s1 = s2 = s3 = s4 = s5 = 0.0
+    for q in range(6):
+        v = x[i + q]
+        s0 += turned[q, 0] * v
+        s1 += turned[q, 1] * v
+        s2 += turned[q, 2] * v
+        s3 += turned[q, 3] * v
+        s4 += turned[q, 4] * v
+        s5 += turned[q, 5] * v
+    out[j] += sign * s0
+    out[j + 1] += sign * s1
+    out[j + 2] += sign * s2
+    out[j + 3] += sign * s3
+    out[j + 4] += sign * s4
+    out[j + 5] += sign * s5
+
+
+@njit(cache=True, nogil=True, fastmath=FAST)
+def _pose_rate(x, trig, rate):
     """rate (6,) = J(eta) nu."""
     R = x[ROTATION:]
     for p in range(3):
         rate[p] = R[3 * p] * x[NU] + R[3 * p + 1] * x[NU + 1] + R[3 * p + 2] * x[NU + 2]
-    sf, cf, ct = np.sin(x[ETA + 3]), np.cos(x[ETA + 3]), np.cos(x[ETA + 4])
-    tt = np.tan(x[ETA + 4])
     p, q, r = x[NU + 3], x[NU + 4], x[NU + 5]
-    rate[3] = p + tt * (sf * q + cf * r)
-    rate[4] = cf * q - sf * r
-    rate[5] = (sf * q + cf * r) / ct
+    yaw = (trig[0] * q + trig[1] * r) / trig[3]
+    rate[3] = p + trig[2] * yaw
+    rate[4] = trig[1] * q - trig[0] * r
+    rate[5] = yaw
 
 
 @njit(cache=True, nogil=True, fastmath=FAST)
-def add_reference_forces(t, frame, C, wave, k, x, g, force):
+def add_reference_forces(t, frame, C, wave, k, x, trig, work, force):
     """Add -J^T C (eta - eta_0) and the tabulated forces, given in the frame that advances steadily at U and psi_0.
 
-    frame = U, psi_0, current (3), constant force (6); g (6,) is room to work in.
+    frame = U, psi_0, current (3), constant force (6), cos psi_0, sin psi_0; C transposed; work (12,) is room to work in.
     """
-    R, U = x[ROTATION:], frame[0]
-    c, s = np.cos(frame[1]), np.sin(frame[1])
+    R, U, c, s = x[ROTATION:], frame[0], frame[11], frame[12]
     dx, dy = x[ETA] - U * t * c, x[ETA + 1] - U * t * s
-    d0, d1, d2 = c * dx + s * dy, -s * dx + c * dy, x[ETA + 2]
-    d3, d4, d5 = x[ETA + 3], x[ETA + 4], x[ETA + 5] - frame[1]
-    for p in range(6):
-        g[p] = -(C[p, 0] * d0 + C[p, 1] * d1 + C[p, 2] * d2 + C[p, 3] * d3 + C[p, 4] * d4 + C[p, 5] * d5)
-    sf, cf, ct, tt = np.sin(d3), np.cos(d3), np.cos(d4), np.tan(d4)
-    force[3] += g[3]
-    force[4] += sf * tt * g[3] + cf * g[4] + sf / ct * g[5]
-    force[5] += cf * tt * g[3] - sf * g[4] + cf / ct * g[5]
+    work[0], work[1], work[2] = c * dx + s * dy, -s * dx + c * dy, x[ETA + 2]
+    work[3], work[4], work[5] = x[ETA + 3], x[ETA + 4], x[ETA + 5] - frame[1]
+    work[6:12] = 0.0
+    _add_product(C, work, 0, -1.0, work, 6)
+    sf, cf, st, ct = trig[0], trig[1], trig[2], trig[3]
+    across = (st * work[9] + work[11]) / ct
+    force[3] += work[9]
+    force[4] += sf * across + cf * work[10]
+    force[5] += cf * across - sf * work[10]
     for part in range(2):
-        f0, f1, f2 = frame[5 + 3 * part], frame[6 + 3 * part], frame[7 + 3 * part]
-        f0, f1, f2 = f0 + wave[k, 3 * part], f1 + wave[k, 3 * part + 1], f2 + wave[k, 3 * part + 2]
+        f0 = frame[5 + 3 * part] + wave[k, 3 * part]
+        f1 = frame[6 + 3 * part] + wave[k, 3 * part + 1]
+        f2 = frame[7 + 3 * part] + wave[k, 3 * part + 2]
         if part == 0:
-            f0, f1, f2 = f0 + g[0], f1 + g[1], f2 + g[2]
+            f0, f1, f2 = f0 + work[6], f1 + work[7], f2 + work[8]
         w0, w1 = c * f0 - s * f1, s * f0 + c * f1
         for p in range(3):
             force[3 * part + p] += R[p] * w0 + R[3 + p] * w1 + R[6 + p] * f2
 
 
 @njit(cache=True, nogil=True, fastmath=FAST)
-def _body_forces(matrices, x, delta, memory, momentum, work, radiation, force):
-    """Add damping, gyroscopic forces and the force of the moving fluid; keep the latter in `radiation`."""
-    M, A, D = matrices[1], matrices[2], matrices[3]
-    h, P, water, turning = work[0], work[1], work[2], work[3]
-    turning[:] = 0.0
+def _body_forces(matrices, x, delta, memory, work, radiation, force):
+    """Add damping, gyroscopic forces and the force of the moving fluid; keep the latter in `radiation`.
+
+    memory (12,) holds mu and p_m and ends as mu and P; matrices are transposed; work (12,) is room to work in.
+    """
+    work[:] = 0.0
+    _add_product(matrices[1], x, NU, 1.0, work, 0)
+    _add_product(matrices[2], delta, 0, 1.0, memory, 6)
+    _add_product(matrices[3], delta, 0, -1.0, force, 0)
+    _cross(force, 0, x, NU + 3, work, 0)
+    _cross(force, 3, x, NU + 3, work, 3)
+    _cross(force, 3, x, NU, work, 0)
     for p in range(6):
-        h[p], P[p], radiation[p] = 0.0, momentum[p], -memory[p]
-        for q in range(6):
-            h[p] += M[p, q] * x[NU + q]
-            P[p] += A[p, q] * delta[q]
-            force[p] -= D[p, q] * delta[q]
-    _cross(force, 0, x, NU + 3, h, 0)
-    _cross(force, 3, x, NU + 3, h, 3)
-    _cross(force, 3, x, NU, h, 0)
-    _cross(radiation, 0, x, NU + 3, P, 0)
-    _cross(radiation, 3, x, NU + 3, P, 3)
-    _cross(radiation, 3, x, NU_R, P, 0)
+        radiation[p] = -memory[p]
+    _cross(radiation, 0, x, NU + 3, memory, 6)
+    _cross(radiation, 3, x, NU + 3, memory, 9)
+    _cross(radiation, 3, x, NU_R, memory, 6)
+    work[:] = 0.0
     for p in range(3):
-        water[p] = x[NU + p] - x[NU_R + p]
-    _cross(turning, 0, x, NU + 3, water, 0)  # -omega x v_c = d/dt of the current in body axes
+        work[p] = x[NU + p] - x[NU_R + p]
+    _cross(work, 6, x, NU + 3, work, 0)  # -omega x v_c: the rate of the current in body axes
+    _add_product(matrices[2], work, 6, 1.0, radiation, 0)
     for p in range(6):
-        radiation[p] += A[p, 0] * turning[0] + A[p, 1] * turning[1] + A[p, 2] * turning[2]
         force[p] += radiation[p]
 
 
@@ -135,12 +161,11 @@ def run_large(
     n_states = places.shape[0] * (output.shape[3] + 2)
     states = memory[:n_states].reshape(places.shape[0], output.shape[3] + 2)
     old = np.empty(output.shape[3] + 2)
-    rate, a, delta = np.empty((4, 6)), np.empty((4, 6)), np.empty((4, 6))
-    v = np.empty((4, 6))
+    rate, a, v, delta = np.empty((4, 6)), np.empty((4, 6)), np.empty((4, 6)), np.empty((4, 6))
     both, radiation, held = np.zeros((2, 24)), np.zeros((4, 6)), np.empty(6)
-    work = np.empty((4, 6))
-    mu, momentum, force, x = np.empty(6), np.empty(6), np.empty(6), np.empty(SITUATION)
+    mu, force, x, trig, work = np.empty(12), np.empty(6), np.empty(SITUATION), np.empty(4), np.empty(12)
     current = frame[2:5]
+    flat_delta = delta.reshape(24)
     written = 0
     for i in range(steps):
         t = origin + (number + i) * dt
@@ -154,7 +179,7 @@ def run_large(
                     x[ETA + p] += h * rate[stage - 1, p]
                     x[NU + p] += h * a[stage - 1, p]
                 v[stage, p] = x[NU + p]
-            situate(t + h, current, x)
+            situate(t + h, current, x, trig)
             if stage == 0:
                 _sample(laws, table, law_data, number + i, x, memory)
                 held[:] = external
@@ -163,22 +188,22 @@ def run_large(
                         held[p] += memory[table[k, 2] + p]
             for p in range(6):
                 delta[stage, p] = x[NU_R + p]
-                mu[p], momentum[p] = both[0, 6 * stage + p], both[1, 6 * stage + p]
+                mu[p], mu[6 + p] = both[0, 6 * stage + p], both[1, 6 * stage + p]
                 force[p] = held[p]
-            delta[stage, 0] -= frame[0]
-            for j in range(stage):
-                for p in range(6):
-                    for q in range(6):
-                        mu[p] += coupling[0, stage, j, p, q] * delta[j, q]
-                        momentum[p] += coupling[1, stage, j, p, q] * delta[j, q]
-            _pose_rate(x, rate[stage])
-            add_reference_forces(t + h, frame, matrices[4], wave, row + 2 * i + (stage + 1) // 2, x, work[0], force)
-            _body_forces(matrices, x, delta[stage], mu, momentum, work, radiation[stage], force)
-            add_kernels(functions, ranges, data, own, x, force)
-            for p in range(6):
                 a[stage, p] = 0.0
-                for q in range(6):
-                    a[stage, p] += matrices[0, p, q] * force[q]
+            delta[stage, 0] -= frame[0]
+            if stage > 0:  # only these couplings of the stages are not zero
+                j = 1 if stage == 2 else 0
+                _add_product(coupling[0, stage, j], delta[j], 0, 1.0, mu, 0)
+                _add_product(coupling[1, stage, j], delta[j], 0, 1.0, mu, 6)
+            if stage == 3:
+                _add_product(coupling[0, 3, 2], delta[2], 0, 1.0, mu, 0)
+                _add_product(coupling[1, 3, 2], delta[2], 0, 1.0, mu, 6)
+            _pose_rate(x, trig, rate[stage])
+            add_reference_forces(t + h, frame, matrices[4], wave, row + 2 * i + (stage + 1) // 2, x, trig, work, force)
+            _body_forces(matrices, x, delta[stage], mu, work, radiation[stage], force)
+            add_kernels(functions, ranges, data, own, x, force)
+            _add_product(matrices[0], force, 0, 1.0, a[stage], 0)
         if (first + i) % stride == 0:
             for p in range(6):
                 out[written, p], out[written, 6 + p] = y[p], y[6 + p]
@@ -189,6 +214,6 @@ def run_large(
             for k in range(signals.shape[0]):
                 out[written, LARGE_COLUMNS + 6 * table.shape[0] + k] = memory[signals[k]]
             written += 1
-        combine(dt, y, rate, v, a)
-        advance_memory(places, source, bands, dense, delta.reshape(24), old, states)
+        combine(dt, y, rate, a)
+        advance_memory(places, source, bands, dense, flat_delta, old, states)
     return written

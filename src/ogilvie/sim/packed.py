@@ -1,6 +1,6 @@
 """The state space of the fluid memory packed for the time loop: real modal form, groups of states, condensed stages."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -80,6 +80,10 @@ class PackedMemory:
             dense=rest if rest.any() else np.zeros((len(groups), 0, 0)),
             model=model,
         )
+
+    def turned(self) -> "PackedMemory":
+        """Return it with the matrices of `coupling` transposed."""
+        return replace(self, coupling=np.ascontiguousarray(self.coupling.swapaxes(-1, -2)))
 
     @property
     def size(self) -> int:

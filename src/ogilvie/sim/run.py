@@ -139,11 +139,22 @@ class Run:
             part = np.abs(values[:, rows]).reshape(len(self.y), len(good), -1)
             good &= (part < (_LARGE if key in ("eta", "nu") else np.inf)).all(axis=(0, 2))
         self.rows = rows.start + (good.size if good.all() else int(good.argmin()))
-        size = np.where(np.isfinite(self.y), np.abs(self.y), np.inf).max(axis=0)
+        bad = np.where(np.isfinite(self.y), np.abs(self.y), np.inf)
+        which = int(bad.max(axis=1).argmax())
+        why = self._why(which) or "The vessel itself is unstable: check restoring, memory model and damping."
+        dof = DOFS[int(bad[which].argmax()) % 6]
         raise ConvergenceError(
-            f"simulate: {DOFS[int(size.argmax()) % 6]} diverges after {self.times()[-1:].sum():g} s (beyond {_LARGE:g} m or "
-            "rad, or not a number). The vessel itself is unstable: check restoring, memory model and damping. The error's "
-            "attribute 'result' holds what was computed before."
+            f"simulate: {dof} diverges after {self.times()[-1:].sum():g} s (beyond {_LARGE:g} m or "
+            f"rad, or not a number). {why} The error's attribute 'result' holds what was computed before."
+        )
+
+    def _why(self, realisation: int) -> str:
+        """Return which load the vessel left, from the last good row, or nothing."""
+        if self.rows == 0 or not {"eta", "nu"} <= set(self.series):
+            return ""
+        last = slice(max(self.rows - 2, 0), self.rows)
+        return self.engine.explain(
+            realisation, self.times()[last], *(self.series[key][realisation, last] for key in ("eta", "nu"))
         )
 
 

@@ -95,6 +95,6 @@ def _run(
         if (first + i) % stride == 0:
             record(out, written, y, a, mu)
             written += 1
-        combine(dt, y, rate, v, a)
+        combine(dt, y, rate, a)
         advance_memory(places, source, bands, dense, flat_v, old, states)
     return written
