@@ -81,7 +81,7 @@ def test_case_hash_tells_cases_apart(barge, seas):
 
 
 def test_interrupt_leaves_what_was_computed(barge, seas):
-    timer = threading.Timer(0.5, _thread.interrupt_main)
+    timer = threading.Timer(2.0, _thread.interrupt_main)
     og.simulate(barge.ship, seas.three, duration=10.0)  # compile first
     timer.start()
     try:
