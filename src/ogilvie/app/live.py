@@ -2,18 +2,19 @@
 
 import sys
 import time
+import warnings
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from math import isfinite, radians
+from math import degrees, isfinite, radians
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ogilvie.app import build, build_run
 from ogilvie.app.case import Case, read_case
-from ogilvie.app.console import say, step, stderr, warn
+from ogilvie.app.console import say, stderr, step, warn
 from ogilvie.app.files import collected_warnings
-from ogilvie.errors import InputError
+from ogilvie.errors import InputError, OgilvieWarning
 from ogilvie.post.broadcast import UdpSender
 from ogilvie.post.nmea import Nmea
 from ogilvie.post.steady_frame import SteadyFrame
@@ -90,11 +91,8 @@ def live_command(path: Path, options: LiveOptions) -> None:
     with options.sender(case) as sender:
         stepper = make_stepper(case, duration)
         say(f"sending {options.format} to {options.host} port {options.port}, {_length(duration)}; ctrl-C ends it")
-        notes: list[str] = []
-        with collected_warnings(notes), _status(stepper, duration, options.factor, sender) as status:
+        with _told_at_once(), _status(stepper, duration, options.factor, sender) as status:
             report = run_real_time(stepper, duration, factor=options.factor, listeners=(sender, *status))
-        for note in notes:
-            warn(note)
         say(str(report))
         say(f"sent              {sender}")
     if report.interrupted and isfinite(duration):
@@ -104,7 +102,7 @@ def live_command(path: Path, options: LiveOptions) -> None:
 
 
 def make_stepper(case: Case, duration: float) -> "Stepper":
-    """Return the stepper of a case in its first realisation, warmed up; a sea lasts as long as the longer of case and run."""
+    """Return the stepper of a case in its first realisation; the sea lasts as long as the longer of case and run."""
     from ogilvie.sim.stepper import Stepper
 
     longest = max(case.simulation.duration, duration if isfinite(duration) else 0.0)
@@ -133,6 +131,23 @@ def _length(duration: float) -> str:
 
 
 @contextmanager
+def _told_at_once() -> Iterator[None]:
+    """Print the package's own warnings when they come."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("always", OgilvieWarning)
+        others = warnings.showwarning
+
+        def show(message: Any, category: type[Warning], *where: Any, **more: Any) -> None:
+            if issubclass(category, OgilvieWarning):
+                warn(str(message))
+            else:
+                others(message, category, *where, **more)
+
+        warnings.showwarning = show
+        yield
+
+
+@contextmanager
 def _status(
     stepper: "Stepper", duration: float, factor: float, sender: UdpSender
 ) -> Iterator[tuple[Callable[["State"], None], ...]]:
@@ -143,28 +158,27 @@ def _status(
     from rich.live import Live
     from rich.text import Text
 
-    begin, due = time.perf_counter(), 0.0
-    first = stepper.time
-    end = f" of {duration:g}" if isfinite(duration) else ""
+    first, end = stepper.time, f" of {duration:g}" if isfinite(duration) else ""
+    with Live(Text(), console=stderr(), auto_refresh=False, transient=True) as line:
+        begin, due = time.perf_counter(), 0.0
 
-    def show(state: "State") -> None:
-        nonlocal due
-        now = time.perf_counter() - begin
-        if now < due:
-            return
-        due = now + REFRESH
-        done, angles = state.time - first, 180.0 / 3.141592653589793 * state.eta[3:5]
-        behind = now - done / factor
-        late = f", [red]{behind:.1f} s behind[/red]" if behind > REFRESH else ""
-        lost = f", [red]{sender.errors} lost[/red]" if sender.errors else ""
-        line.update(
-            Text.from_markup(
-                f"t {done:8.1f}{end} s  heave {state.eta[2]:+6.2f} m  roll {angles[0]:+6.2f} deg  pitch {angles[1]:+6.2f} deg"
-                f"  {sender.sent} sent{lost}{late}"
-            ),
-            refresh=True,
-        )
+        def show(state: "State") -> None:
+            nonlocal due
+            now = time.perf_counter() - begin
+            if now < due:
+                return
+            due, done = now + REFRESH, state.time - first
+            behind = now - done / factor
+            late = f", {behind:.1f} s behind" if behind > REFRESH else ""
+            line.update(Text(f"t {done:.1f}{end} s  {_motions(state)}  {sender.sent} sent{_lost(sender)}{late}"), refresh=True)
 
-    with ExitStack() as stack:
-        line = stack.enter_context(Live(Text(), console=stderr(), auto_refresh=False, transient=True))
         yield (show,)
+
+
+def _motions(state: "State") -> str:
+    heave, roll, pitch = float(state.eta[2]), degrees(state.eta[3]), degrees(state.eta[4])
+    return f"heave {heave:+.2f} m, roll {roll:+.2f} deg, pitch {pitch:+.2f} deg"
+
+
+def _lost(sender: UdpSender) -> str:
+    return f", {sender.errors} lost" if sender.errors else ""
