@@ -29,6 +29,7 @@ class ToyTime:
         self.t, self.oversleep, self.sleeps = 1000.0, oversleep, []
 
     def now(self) -> float:
+        self.t += 1e-7
         return self.t
 
     def sleep(self, seconds: float) -> None:
@@ -98,7 +99,7 @@ def test_the_end_of_a_wait_is_spun_and_the_rest_slept():
 
 def test_an_oversleep_shows_as_jitter_of_the_wake_up():
     run = paced(5 * DT, oversleep=2e-3)
-    assert run.report.wake_up.max == pytest.approx(2e-3 - SPIN, abs=1e-6)
+    assert run.report.wake_up.max == pytest.approx(2e-3 - SPIN, abs=TICK)
     assert run.report.wake_up.count == 5
     assert run.report.missed == 0  # the states were ready
 
@@ -127,7 +128,7 @@ def test_two_stretches():
 
 def test_slow_listeners_delay_and_are_told():
     r = paced(10 * DT, listener_cost=0.15, patience=60.0).report
-    assert r.output.mean == pytest.approx(0.15)
+    assert r.output.mean == pytest.approx(0.15, abs=1e-4)
     assert r.missed == 9
     assert r.stretches - r.caught_up == 1
     assert "behind at the end" in str(r)
@@ -137,7 +138,7 @@ def test_the_first_step_is_done_before_the_clock_starts():
     r = paced(10 * DT, cost=lambda k: 5.0 if k == 1 else 0.01).report
     assert r.missed == 0
     assert r.computing.count == 9
-    assert r.computing.max == pytest.approx(0.01)
+    assert r.computing.max == pytest.approx(0.01, abs=1e-4)
     assert r.wall == pytest.approx(1.0, abs=1e-3)
 
 
@@ -226,10 +227,11 @@ def test_an_interrupt_in_a_long_wait_is_heard(ordinary_interrupts):
 
 def test_an_interrupt_leaves_the_stepper_in_order(ordinary_interrupts, barge, seas):
     """The run goes on afterwards as if nothing had been."""
-    stepper, other = og.Stepper(barge.ship, seas.one, dt=0.01), og.Stepper(barge.ship, seas.one, dt=0.01)
-    report = run_real_time(stepper, 5.0, factor=50.0, listeners=[lambda s: s.time > 0.5 and signal.raise_signal(signal.SIGINT)])
+    stepper, other = og.Stepper(barge.ship, seas.one, dt=DT), og.Stepper(barge.ship, seas.one, dt=DT)
+    report = run_real_time(stepper, 50.0, factor=100.0, listeners=[interrupt_at(20)], patience=1e3)
     assert report.interrupted
-    for _ in range(report.steps + 10):
+    assert report.steps == 20
+    for _ in range(30):
         expected = other.step()
     for _ in range(10):
         state = stepper.step()

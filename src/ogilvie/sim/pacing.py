@@ -8,8 +8,9 @@ from dataclasses import dataclass, field
 from ogilvie.errors import OgilvieWarning
 from ogilvie.sim.latency import Latencies, readable
 
-#: The last part of a wait is spun away, because a sleep ends late by about a tenth of this, s.
-SPIN = 5e-4
+#: The last part of a wait is spun away, because a sleep ends late by about a tenth of this, s; other threads get their turn
+#: in it but for its own last part, which is shorter than such a turn takes.
+SPIN, ALONE = 5e-4, 1e-4
 #: A sleep is cut into pieces of this length at most, so that a wish to stop is heard, s.
 SLICE = 0.1
 
@@ -91,7 +92,8 @@ class Pacer:
                 return False
             sleep(min(rest - SPIN, SLICE))
         while (late := now() - deadline) < 0.0:
-            sleep(0.0)
+            if late < -ALONE:
+                sleep(0.0)
         self.wake_up.add(late)
         return True
 

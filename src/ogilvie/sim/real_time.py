@@ -176,7 +176,8 @@ def run_real_time(
     >>> body = og.RigidBody(mass=2.0, cog=[0, 0, 0], inertia=np.eye(3))
     >>> stepper = og.Stepper(og.Vessel(body, loads=(og.LinearRestoring(np.zeros((6, 6))),)), dt=0.01)
     >>> heard = []
-    >>> report = run_real_time(stepper, 0.05, listeners=[heard.append], on_step=lambda state: [4.0, 0, 0, 0, 0, 0])
+    >>> push = [4.0, 0, 0, 0, 0, 0]
+    >>> report = run_real_time(stepper, 0.05, listeners=[heard.append], on_step=lambda state: push, patience=60.0)
     >>> report.steps, report.wall >= 0.05, [round(state.time, 2) for state in heard]
     (5, True, [0.01, 0.02, 0.03, 0.04, 0.05])
     >>> float(stepper.state.nu[0])
