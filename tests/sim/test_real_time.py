@@ -16,7 +16,8 @@ from ogilvie.errors import OgilvieWarning
 from ogilvie.post.broadcast import UdpSender
 from ogilvie.sim.latency import Latencies, Percentiles, readable
 from ogilvie.sim.pacing import SPIN, Clock
-from ogilvie.sim.real_time import RealTimeReport, run_real_time
+from ogilvie.sim.real_time import run_real_time
+from ogilvie.sim.real_time_report import RealTimeReport
 
 TICK = 1e-5
 DT = 0.1

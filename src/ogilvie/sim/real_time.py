@@ -1,9 +1,6 @@
 """A simulation that keeps wall-clock time."""
 
-import signal
-import threading
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from math import inf, isinf
 from typing import Any, Protocol
@@ -12,8 +9,10 @@ from numpy.typing import ArrayLike
 
 from ogilvie.errors import InputError
 from ogilvie.sim.engine import positive
-from ogilvie.sim.latency import Latencies, Percentiles, readable
+from ogilvie.sim.interrupts import Stop, heeded_interrupts
+from ogilvie.sim.latency import Latencies
 from ogilvie.sim.pacing import Clock, Pacer
+from ogilvie.sim.real_time_report import RealTimeReport
 from ogilvie.sim.state import State
 
 Listener = Callable[[State], Any]
@@ -35,78 +34,6 @@ class Steppable(Protocol):
     def step(self, external_force: ArrayLike | None = None) -> State:
         """Advance by dt and return the new state."""
         ...
-
-
-@dataclass(frozen=True)
-class RealTimeReport:
-    """How well a run kept its time.
-
-    Parameters
-    ----------
-    steps : int
-        Steps done.
-    simulated, wall : float
-        Simulated time, and time on the clock, s.
-    dt, factor : float
-        Time step, s; simulated seconds per second of the clock.
-    missed : int
-        States that were ready after their deadline.
-    largest_lateness, mean_lateness : float
-        Of the missed deadlines, s; 0 where there are none.
-    stretches, caught_up : int
-        How often the run fell behind, and how often it was on time again afterwards: at most one less.
-    longest_behind : float
-        Longest time from a first missed deadline to the last before the run was on time again, s.
-    final_lateness : float
-        Lateness of the last state, s.
-    computing, wake_up, output : Percentiles
-        Time per step of `on_step` and the stepper, the first step apart; how late after its deadline a wait ended; time of all
-        listeners together.
-    interrupted : bool
-        Whether an interrupt ended the run.
-    """
-
-    steps: int
-    simulated: float
-    wall: float
-    dt: float
-    factor: float
-    missed: int
-    largest_lateness: float
-    mean_lateness: float
-    stretches: int
-    caught_up: int
-    longest_behind: float
-    final_lateness: float
-    computing: Percentiles
-    wake_up: Percentiles
-    output: Percentiles
-    interrupted: bool
-
-    def __str__(self) -> str:
-        share = 100.0 * self.missed / self.steps if self.steps else 0.0
-        lines = [
-            f"{self.simulated:.6g} s in {self.steps} steps of {readable(self.dt)}, {self.wall:.6g} s on the clock"
-            + (f" ({self.factor:g} x real time)" if self.factor != 1.0 else "")
-            + (", interrupted" if self.interrupted else ""),
-            f"deadlines missed  {self.missed} ({share:.2g} %){self._lateness()}",
-            f"computing         {self.computing}",
-            f"wake-up           {self.wake_up}",
-        ]
-        if self.output.count:
-            lines.append(f"output            {self.output}")
-        return "\n".join(lines)
-
-    def _lateness(self) -> str:
-        if not self.missed:
-            return ""
-        times = "once" if self.stretches == 1 else f"{self.stretches} times"
-        at_end = f"{readable(self.final_lateness)} behind at the end"
-        now = "caught up each time" if self.caught_up == self.stretches else at_end
-        return (
-            f", by {readable(self.largest_lateness)} at most and {readable(self.mean_lateness)} on average; "
-            f"behind {times}, for {readable(self.longest_behind)} at the longest, {now}"
-        )
 
 
 def run_real_time(
@@ -192,22 +119,12 @@ def run_real_time(
         raise InputError(f"patience: a time >= 0 in s expected, {patience!r} found.")
     pacer = Pacer(dt / float(factor), float(patience), clock or Clock())
     loop = _Loop(stepper, pacer, every, tuple(listeners), on_step)
-    with _interrupts() as stop:
+    with heeded_interrupts() as stop:
         try:
             loop.go(steps, stop)
         except KeyboardInterrupt:
             stop.asked = True
     return loop.report(float(factor), interrupted=stop.asked)
-
-
-@dataclass(eq=False)
-class _Stop:
-    """Whether an interrupt has come."""
-
-    asked: bool = False
-
-    def __call__(self) -> bool:
-        return self.asked
 
 
 @dataclass(eq=False)
@@ -221,7 +138,7 @@ class _Loop:
     computing: Latencies = field(default_factory=Latencies)
     output: Latencies = field(default_factory=Latencies)
 
-    def go(self, steps: float, stop: _Stop) -> None:
+    def go(self, steps: float, stop: Stop) -> None:
         """Step, wait, hand out."""
         now = self.pacer.clock.now
         state = self._advance(None)
@@ -279,27 +196,3 @@ def _number_of_steps(duration: float, dt: float) -> float:
     if steps < 1:
         raise InputError(f"duration: at least one step of {dt:g} s expected, {duration:g} s found.")
     return steps
-
-
-@contextmanager
-def _interrupts() -> Iterator[_Stop]:
-    """Turn an interrupt into a wish to stop, so that no step is torn apart; a second one raises KeyboardInterrupt.
-
-    Another handler of the program than Python's own is left in its place, and so is all outside the main thread.
-    """
-    stop = _Stop()
-    main = threading.current_thread() is threading.main_thread()
-    if not main or signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
-        yield stop
-        return
-
-    def handler(signum: int, frame: Any) -> None:
-        if stop.asked:
-            raise KeyboardInterrupt
-        stop.asked = True
-
-    signal.signal(signal.SIGINT, handler)
-    try:
-        yield stop
-    finally:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
