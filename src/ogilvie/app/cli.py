@@ -168,6 +168,35 @@ def simulate(
 
 @app.command()
 @guarded
+def live(
+    case: CaseFile,
+    host: Annotated[str, typer.Option("--host", help="Name or address that hears the datagrams.")] = "127.0.0.1",
+    port: Annotated[int, typer.Option("--port", help="UDP port.")] = 10110,
+    format: Annotated[str, typer.Option("--format", help="json or nmea.")] = "json",
+    factor: Annotated[float, typer.Option("--factor", help="Simulated seconds per second: 1 is real time.")] = 1.0,
+    duration: Annotated[
+        float | None, typer.Option("--duration", metavar="S", help="Simulated time, s; that of the case by default, or inf.")
+    ] = None,
+    rate: Annotated[
+        float | None, typer.Option("--rate", metavar="HZ", help="Datagrams per simulated second; every step by default.")
+    ] = None,
+    origin: Annotated[
+        str, typer.Option("--origin", metavar="LAT,LON", help="nmea: where the vessel's origin lies at the start, deg.")
+    ] = "0,0",
+    x_axis: Annotated[str, typer.Option("--x-axis", help="nmea: where the x axis points, east or north.")] = "east",
+    fix: Annotated[str, typer.Option("--fix", help="nmea: mark positions as simulated or ordinary.")] = "simulated",
+) -> None:
+    """Run a case in real time and send its states over UDP.
+
+    One datagram per step to whoever listens, until the duration is over or ctrl-C is pressed; then how well time was kept.
+    """
+    from ogilvie.app.live import LiveOptions, live_command
+
+    live_command(case, LiveOptions(host, port, format, factor, duration, rate, origin, x_axis, fix))
+
+
+@app.command()
+@guarded
 def plot(
     source: Annotated[Path, typer.Argument(metavar="FILE", help="result.nc, coefficients, memory.npz or a mesh.")],
     output: Annotated[Path, typer.Option("--output", "-o", metavar="FOLDER", help="Where the figures go.")] = Path("figures"),
