@@ -66,9 +66,11 @@ class LiveOptions:
             raise InputError(f"--origin: LAT,LON in degrees expected (59.90,10.70, say), {self.origin!r} found.")
         return radians(latitude), radians(longitude)
 
-    def sender(self, case: Case) -> UdpSender:
+    def sender(self, case: Case, motions: str) -> UdpSender:
         """Open the socket; the poses sent are those in the world."""
-        frame = SteadyFrame(case.vessel.speed_knots * knot, radians(case.vessel.heading_deg))
+        frame = None
+        if motions == "small":
+            frame = SteadyFrame(case.vessel.speed_knots * knot, radians(case.vessel.heading_deg))
         return UdpSender(self.host, self.port, format=self.formatter, rate=self.rate, frame=frame)
 
 
@@ -88,8 +90,9 @@ def live_command(path: Path, options: LiveOptions) -> None:
         raise InputError(
             f"--duration, --factor: positive numbers expected (duration also inf), {duration:g}, {options.factor:g} found."
         )
-    with options.sender(case) as sender:
-        stepper = make_stepper(case, duration)
+    _ = options.formatter  # a mistake in the options is told before the long work
+    stepper = make_stepper(case, duration)
+    with options.sender(case, stepper.motions) as sender:
         say(f"sending {options.format} to {options.host} port {options.port}, {_length(duration)}; ctrl-C ends it")
         with _told_at_once(), _status(stepper, duration, options.factor, sender) as status:
             report = run_real_time(stepper, duration, factor=options.factor, listeners=(sender, *status))

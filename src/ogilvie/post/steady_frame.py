@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 
 from ogilvie.errors import InputError
-from ogilvie.frames import euler_rate_matrix, rotation_matrix
 from ogilvie.sim.state import State
 
 
@@ -46,16 +45,11 @@ class SteadyFrame:
 
         Notes
         -----
-        With eta and its rates in the steady frame: x = Rz(psi0) (eta + (U t, 0, 0)), psi = psi0 + eta_6;
-        v = R(eta)^T (rates + (U, 0, 0)), omega = T(eta)^-1 rates. So x' = R v holds in the world, and to first order the
-        velocities are the rates with (U, -U eta_6, U eta_5) added.
+        x = Rz(psi0) (eta + (U t, 0, 0)), psi = psi0 + eta_6; the velocity of small motions is that in body axes less U.
         """
-        eta, rates = state.eta, state.nu
+        eta = state.eta
         c, s = cos(self.heading), sin(self.heading)
         along = eta[0] + self.speed * state.time
         pose: Any = np.array([c * along - s * eta[1], s * along + c * eta[1], *eta[2:5], eta[5] + self.heading])
-        phi, theta, psi = eta[3:]
-        nu = np.empty(6)
-        nu[:3] = rotation_matrix(phi, theta, psi).T @ (rates[:3] + [self.speed, 0.0, 0.0])
-        nu[3:] = np.linalg.solve(euler_rate_matrix(phi, theta), rates[3:])
+        nu = state.nu + np.array([self.speed, 0.0, 0.0, 0.0, 0.0, 0.0])
         return State(pose, nu, memory=state.memory, time=state.time)

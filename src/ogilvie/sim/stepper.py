@@ -76,6 +76,11 @@ class Stepper:
         return self._engine.dt
 
     @property
+    def motions(self) -> str:
+        """``"small"`` (states about the steady frame) or ``"large"`` (poses in the world)."""
+        return "large" if self._engine.large else "small"
+
+    @property
     def time(self) -> float:
         """Time of the present state, s."""
         return self._origin + self._step * self._engine.dt
