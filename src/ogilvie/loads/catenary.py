@@ -120,7 +120,7 @@ def _suspended(l, h, L, w, EA):
             t *= 0.5
         stuck = abs(t * dH) <= 1e-15 * H and abs(t * dV) <= 1e-15 * (abs(V) + H)
         H, V = H + t * dH, V + t * dV
-        if stuck or (1e-13 * w * L > H and l <= 1e-9 * L):
+        if stuck:
             break
     if abs(a - l) + abs(b - h) <= 1e-9 * L:
         return H, V, SUSPENDED

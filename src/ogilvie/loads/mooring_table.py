@@ -50,7 +50,7 @@ def _table_kernel(x, data, own, force):
     if data[6] > 0.0:
         r = np.hypot(dx, dy)
         pull = table_value(data, int(data[6]), r)
-        if r > 0.0:
+        if r != 0.0:  # NaN passes on
             X -= pull * dx / r
             Y -= pull * dy / r
     co, si = np.cos(data[0]), np.sin(data[0])
