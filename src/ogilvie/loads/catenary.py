@@ -12,6 +12,7 @@ from numba import njit
 FAILED, SLACK, GROUNDED, SUSPENDED = -1, 0, 1, 2
 
 _TOLERANCE = 1e-12  # of the position of the fairlead, as a fraction of L
+_LAST = 1e-6  # a Newton step that is this small a fraction leaves the square of it as error: no need to look again
 _ITERATIONS = 80
 
 compiled = njit(cache=True, nogil=True, error_model="numpy")
@@ -42,8 +43,8 @@ def solve_line(l, h, L, w, EA, friction, ground):
     -----
     The kind is decided in closed form before anything is iterated. With q = h - w L^2 / (2 EA) the line leaves the ground
     altogether (V = w L) at H* = w (L^2 - q^2) / (2 q), l* = (H* / w) asinh(w L / H*) + H* L / EA; the horizontal force grows
-    with l at constant h, so the line is grounded where l < l*. The place of the fairlead is met to 1e-12 L (clear of the ground
-    at worst 1e-9 L).
+    with l at constant h, so the line is grounded where l < l*. The place of the fairlead is met to 1e-10 L (at worst
+    1e-9 L, else the line counts as not solved).
 
     References
     ----------
@@ -74,6 +75,15 @@ def solve_line(l, h, L, w, EA, friction, ground):
 
 
 @compiled
+def _asinh(x):
+    """Inverse hyperbolic sine of x >= 0, to rounding where the sum under the logarithm would lose digits."""
+    if x < 0.02:
+        y = x * x
+        return x * (1.0 - y * (1.0 / 6.0 - y * (3.0 / 40.0 - y * (15.0 / 336.0))))
+    return np.log(x + np.sqrt(1.0 + x * x))
+
+
+@compiled
 def suspended_line(H, V, L, w, EA):
     """Return (l, h, dl/dH, dl/dV = dh/dH, dh/dV) of a line clear of the ground.
 
@@ -85,10 +95,10 @@ def suspended_line(H, V, L, w, EA):
     both written so that nothing cancels when the weight is small against the tension.
     """
     Va = V - w * L
-    T, Ta = np.hypot(H, V), np.hypot(H, Va)
+    T, Ta = np.sqrt(H * H + V * V), np.sqrt(H * H + Va * Va)
     if V * Va > 0.0:
         y = w * L * (V + Va) / (V * Ta + Va * T)
-        A = np.arcsinh(y)
+        A = _asinh(y)
         B = H * H * y / (T * Ta)  # V / T - V_a / T_a
     else:
         A = np.arcsinh(V / H) - np.arcsinh(Va / H)
@@ -109,6 +119,8 @@ def _suspended(l, h, L, w, EA):
             return H, V, SUSPENDED
         det = aH * bV - aV * aV
         dH, dV = (-ra * bV + rb * aV) / det, (-rb * aH + ra * aV) / det
+        if abs(dH) <= _LAST * H and abs(dV) <= _LAST * H:
+            return H + dH, V + dV, SUSPENDED
         t = 1.0
         if H + dH < 0.05 * H:
             t = -0.95 * H / dH
@@ -118,10 +130,7 @@ def _suspended(l, h, L, w, EA):
             if (a - l) * dH + (b - h) * dV <= -0.7 * slope:
                 break
             t *= 0.5
-        stuck = abs(t * dH) <= 1e-15 * H and abs(t * dV) <= 1e-15 * (abs(V) + H)
         H, V = H + t * dH, V + t * dV
-        if stuck:
-            break
     if abs(a - l) + abs(b - h) <= 1e-9 * L:
         return H, V, SUSPENDED
     return np.nan, np.nan, FAILED
@@ -129,22 +138,25 @@ def _suspended(l, h, L, w, EA):
 
 @compiled
 def _suspended_start(l, h, L, w, EA):
-    """Tension of a straight spring where the chord is longer than the line, else Jonkman's estimate ."""
-    chord = np.hypot(l, h)
-    W = w * L
-    if chord >= L:
-        spring = EA * (chord / L - 1.0) + 0.5 * W
-        return max(spring * l / chord, 1e-9 * W), spring * h / chord + 0.5 * W
+    """Estimate for a line between taut and deep sag.
+
+    With p = w l / (2 H), arc^2 = h^2 + (l sinh(p) / p)^2 of the inextensible catenary gives p^2 = p0^2 for small p,
+    p0^2 = 3 ((L^2 - h^2) / l^2 - 1); the stretch w d / (2 p EA) of a line of chord d adds b / p, b = 3 L^2 w d / (EA l^2).
+    """
     x = max(l, 1e-6 * L)
-    p = np.sqrt(3.0 * max((L * L - h * h) / (x * x) - 1.0, 1e-4))
-    if p > 3.0:  # deep sag: the cubic's small root is far off; take the two legs' logarithm
-        return max(0.5 * w * x / p, 1e-12 * W), 0.5 * w * (h / np.tanh(min(p, 300.0)) + L)
-    return 0.5 * w * x / p, 0.5 * w * (h / np.tanh(p) + L)
+    d = np.sqrt(x * x + h * h)
+    p0 = 3.0 * ((L * L - h * h) / (x * x) - 1.0)
+    b = 3.0 * L * L * w * d / (EA * x * x)
+    p = np.sqrt(max(p0, 0.0)) + np.cbrt(b)
+    for _ in range(3):
+        p -= (p * (p * p - p0) - b) / (3.0 * p * p - p0)
+    p = min(max(p, 1e-9), 300.0)
+    return max(0.5 * w * x / p, 1e-12 * w * L), 0.5 * w * (h / np.tanh(p) + L)
 
 
 @compiled
 def grounded_line(H, h, L, w, EA, friction):
-    """Return (l, V, dl/dH at constant h) of a line that rests on the ground with the length L_B = L - V / w.
+    """Return (l, V, dl/dH, dV/dH at constant h) of a line that rests on the ground with the length L_B = L - V / w.
 
     Notes
     -----
@@ -155,8 +167,8 @@ def grounded_line(H, h, L, w, EA, friction):
     k = 1.0 + (H + w * h) / EA
     c = w * h * (2.0 * H + w * h)
     V = np.sqrt(2.0 * c / (k + np.sqrt(k * k - c / (EA * EA))))
-    T = np.hypot(H, V)
-    A = np.arcsinh(V / H)
+    T = np.sqrt(H * H + V * V)
+    A = _asinh(V / H)
     ground = L - V / w
     slope = 0.0  # dV/dH
     if V > 0.0:
@@ -170,31 +182,48 @@ def grounded_line(H, h, L, w, EA, friction):
             dl -= (ground - H / (friction * w) - slope * H / w) / EA
         else:
             dl += friction * ground * slope / EA
-    return l, V, dl
+    return l, V, dl, slope
 
 
 @compiled
 def _grounded(l, h, L, w, EA, friction):
     """Newton's method for H alone between bounds that close in; l grows with H."""
     low, high = 0.0, np.inf
-    D = (L - l) / max(h, 1e-9 * L)
-    H = 2.0 / 9.0 * w * h * (1.0 / (D * D) - 1.0) if 1e-3 < D < 1.0 else 0.1 * EA
-    H = min(max(H, 1e-9 * w * L), 0.1 * EA)
+    H = _grounded_start(l, h, L, w, EA)
     for _ in range(_ITERATIONS):
-        a, V, slope = grounded_line(H, h, L, w, EA, friction)
+        a, V, slope, rise = grounded_line(H, h, L, w, EA, friction)
         if abs(a - l) <= _TOLERANCE * L:
             return H, V, GROUNDED
-        if a < l:
+        dH = (l - a) / slope
+        if abs(dH) <= _LAST * H:
+            return H + dH, V + rise * dH, GROUNDED
+        if dH > 0.0:
             low = H
         else:
             high = H
-        new = H - (a - l) / slope
+        new = H + dH
         if not (low < new < high):
             new = 10.0 * H if high == np.inf else (0.5 * (low + high) if low > 0.01 * high else 0.03 * high)
-        if abs(new - H) <= 1e-15 * H:
-            return new, V, GROUNDED
         H = new
     return np.nan, np.nan, FAILED
+
+
+@compiled
+def _grounded_start(l, h, L, w, EA):
+    """Estimate from D = (length - l) / h.
+
+    A line that does not stretch has D = sqrt(1 + 2 u) - u acosh(1 + 1 / u), u = H / (w h);
+    u = (2 / 9) (1 / D^2 - 1) is right for small D; the polynomial corrects it to 5 % for D < 0.97. The stretch H L / EA
+    lengthens the line: D^3 - D0 D^2 = (2 / 9) w L / EA.
+    """
+    height = max(h, 1e-9 * L)
+    D0, c = (L - l) / height, 2.0 / 9.0 * w * L / EA
+    D = max(D0, 0.0) + np.cbrt(c)
+    for _ in range(2):
+        D -= (D * D * (D - D0) - c) / (D * (3.0 * D - 2.0 * D0))
+    D = min(D, 0.999)
+    near = max(1.00683 + D * (-0.22171 + D * (0.54631 - D * 0.91244)), 0.2)
+    return 2.0 / 9.0 * w * height * (1.0 / (D * D) - 1.0) * near
 
 
 @compiled
