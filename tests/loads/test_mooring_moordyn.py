@@ -145,14 +145,27 @@ def test_force_is_about_the_origin_in_body_axes(springs):
 
 def test_fairleads_follow_the_ship_without_drift(springs):
     library, path = springs
-    mooring = MoorDyn(path, period=0.2)
-    mooring.start(1.0, REST, REST)
+    mooring, period, w = MoorDyn(path, period=0.2), 0.2, 1.5
+
+    def motion(t):
+        """Surge, heave and yaw with their velocities in body axes."""
+        eta, rate = np.zeros(6), np.zeros(6)
+        eta[[0, 2, 5]], rate[[0, 2, 5]] = np.outer([5.0, 0.4, 0.1], [np.sin(w * t), w * np.cos(w * t)]).T
+        rate[:3] = rotation_matrix(*eta[3:]).T @ rate[:3]
+        return eta, rate
+
+    def places(eta):
+        return eta[:3] + library.places @ rotation_matrix(*eta[3:]).T
+
+    mooring.start(1.0, *motion(1.0))
     for i in range(1, 40):
-        pose = POSE * np.sin(0.3 * i)
-        mooring.call(1.0 + 0.2 * i, pose, REST)
-        t, dt, x = library.steps[-1]
-        assert (t, dt) == pytest.approx((1.0 + 0.2 * (i - 1), 0.2))
-        assert x == pytest.approx(pose[:3] + library.places @ rotation_matrix(*pose[3:]).T, abs=1e-9)
+        t = 1.0 + period * i
+        mooring.call(t, *motion(t))
+        assert library.steps[-1][2] == pytest.approx(places(motion(t)[0]), abs=1e-9)
+    times = np.array([s[0] + s[1] for s in library.steps])
+    assert np.diff(times) == pytest.approx(np.full(len(times) - 1, 0.02))
+    off = [np.abs(x - places(motion(t)[0])).max() for (_, _, x), t in zip(library.steps, times, strict=True)]
+    assert max(off) < 5.0 * (w * period) ** 4 / 384 * 1.5  # error of cubic interpolation
 
 
 def test_extrapolation_takes_the_delay_out(springs):

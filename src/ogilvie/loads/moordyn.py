@@ -12,6 +12,8 @@ from ogilvie.loads.base import MOORING, vector6
 
 Array = NDArray[Any]
 
+_PIECES = 10
+
 
 class MoorDyn:
     """Lines with inertia and drag, computed by MoorDyn beside the ship and coupled to it once per period.
@@ -36,8 +38,9 @@ class MoorDyn:
 
     Notes
     -----
-    Use: ``start`` with the first pose, ``call`` at t, t + period, ..., ``close`` at the end. In between two calls the fairleads
-    move straight from where they were to where they are, so that they do not drift from the ship. MoorDyn writes its log and
+    Use: ``start`` with the first pose, ``call`` at t, t + period, ..., ``close`` at the end. Between two calls each fairlead
+    moves along the cubic of its places and velocities at both, in ten straight pieces (fewer where they were shorter than dt), so
+    that it does not drift from the ship and its velocity hardly jumps: a jump is a blow to the lines. MoorDyn writes its log and
     output files beside the input file and its greeting to the terminal.
 
     References
@@ -69,7 +72,7 @@ class MoorDyn:
         self._library: Any = None
         self._system: Any = None
         self._time = 0.0
-        self._ends: Array = np.zeros((0, 3))
+        self._ends: Array = np.zeros((2, 0, 3))  # places and velocities in the world
         self._pulls: Array = np.zeros((0, 3))
 
     @property
@@ -85,7 +88,7 @@ class MoorDyn:
         t : float
             s.
         eta, nu : (6,) array
-            Pose in the world; velocity in body axes, of which MoorDyn's start from rest takes no account.
+            Pose in the world; velocity in body axes. The lines themselves start from rest.
 
         Raises
         ------
@@ -97,10 +100,10 @@ class MoorDyn:
         self.close()
         self._library = _import()
         self._open()
-        vector6(nu, "MoorDyn: velocity nu")
         pose = vector6(eta, "MoorDyn: pose eta")
-        self._time, self._ends = float(t), self._points(pose)
-        code = self._library.Init(self._system, self._ends.ravel().tolist(), [0.0] * self._ends.size)
+        self._time, self._ends = float(t), self._points(pose, vector6(nu, "MoorDyn: velocity nu"))
+        places = self._ends[0].ravel().tolist()
+        code = self._library.Init(self._system, places, [0.0] * len(places))
         self._pulls = (
             np.array([self._library.GetPointForce(p) for p in self._coupled()]) if code == 0 else np.full((1, 3), np.nan)
         )
@@ -118,7 +121,7 @@ class MoorDyn:
         t : float
             s, later than the last call; the same time returns the same force.
         eta, nu : (6,) array
-            Pose in the world; the velocity is not used, see the notes of the class.
+            Pose in the world; velocity in body axes.
 
         Raises
         ------
@@ -134,13 +137,9 @@ class MoorDyn:
             raise InputError(f"MoorDyn: a time from {self._time:g} s on expected, {t:g} s found.")
         if span <= 1e-9 * self.period:
             return self._force(self._pulls, pose)
-        before, self._ends, self._time = self._ends, self._points(pose), float(t)
-        speed = (self._ends - before) / span
-        try:
-            found = self._library.Step(self._system, before.ravel().tolist(), speed.ravel().tolist(), self._time - span, span)
-        except RuntimeError as error:
-            raise ConvergenceError(f"MoorDyn: step to {t:g} s failed ({error}); see the log beside {self.path}.") from None
-        pulls = np.array(found, dtype=float).reshape(-1, 3)
+        before, self._ends = self._ends, self._points(pose, vector6(nu, "MoorDyn: velocity nu"))
+        pulls = self._advance(before, span)
+        self._time = float(t)
         if not np.all(np.isfinite(pulls)):
             raise ConvergenceError(f"MoorDyn: finite forces expected, NaN found at {t:g} s. Take a smaller dt or more damping.")
         ahead = pulls + self.lead * self.period / span * (pulls - self._pulls)
@@ -171,14 +170,36 @@ class MoorDyn:
             )
         self.fairleads = np.array([self._library.GetPointPos(p) for p in points])
 
+    def _advance(self, before: Array, span: float) -> Array:
+        """Pull (n, 3) on the fairleads after they went along their cubics for the time span."""
+        pieces = _PIECES if self.dt is None else max(1, min(_PIECES, int(span / self.dt)))
+        u = np.linspace(0.0, 1.0, pieces + 1)[:, None, None]
+        (x0, v0), (x1, v1) = before, self._ends
+        path = x0 + u * (span * v0 + u * (3.0 * (x1 - x0) - span * (2.0 * v0 + v1) + u * (2.0 * (x0 - x1) + span * (v0 + v1))))
+        step = span / pieces
+        found: Any = None
+        for i in range(pieces):
+            speed = (path[i + 1] - path[i]) / step
+            try:
+                found = self._library.Step(
+                    self._system, path[i].ravel().tolist(), speed.ravel().tolist(), self._time + i * step, step
+                )
+            except RuntimeError as error:
+                end = self._time + span
+                raise ConvergenceError(
+                    f"MoorDyn: step to {end:g} s failed ({error}); see the log beside {self.path}."
+                ) from None
+        return np.array(found, dtype=float).reshape(-1, 3)
+
     def _coupled(self) -> list[Any]:
         m = self._library
         points = [m.GetPoint(self._system, i + 1) for i in range(m.GetNumberPoints(self._system))]
         return [p for p in points if m.GetPointType(p) == m.POINT_TYPE_COUPLED]
 
-    def _points(self, pose: Array) -> Array:
-        """World places (n, 3) of the fairleads."""
-        return np.asarray(pose[:3] + self.fairleads @ rotation_matrix(*pose[3:]).T)
+    def _points(self, pose: Array, nu: Array) -> Array:
+        """World places and velocities (2, n, 3) of the fairleads."""
+        R = rotation_matrix(*pose[3:])
+        return np.stack([pose[:3] + self.fairleads @ R.T, (nu[:3] + np.cross(nu[3:], self.fairleads)) @ R.T])
 
     def _force(self, pulls: Array, pose: Array) -> Array:
         body = pulls @ rotation_matrix(*pose[3:])
