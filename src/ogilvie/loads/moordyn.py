@@ -39,9 +39,9 @@ class MoorDyn:
     Notes
     -----
     Use: ``start`` with the first pose, ``call`` at t, t + period, ..., ``close`` at the end. Between two calls each fairlead
-    moves along the cubic of its places and velocities at both, in ten straight pieces (fewer where they were shorter than dt), so
-    that it does not drift from the ship and its velocity hardly jumps: a jump is a blow to the lines. MoorDyn writes its log and
-    output files beside the input file and its greeting to the terminal.
+    moves along the cubic of its places and velocities at both, in ten straight pieces (fewer where they were shorter than dt):
+    it does not drift from the ship, and its velocity hardly jumps, for a jump is a blow to the lines. MoorDyn writes its log
+    and output files beside the input file and its greeting to the terminal.
 
     References
     ----------
