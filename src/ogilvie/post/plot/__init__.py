@@ -1,6 +1,7 @@
 """Figures: each function returns a matplotlib ``Figure``, with units on every axis (degrees for angles), and takes ``save``."""
 
 from ogilvie.post.plot._hull import hull
+from ogilvie.post.plot._mooring import mooring
 from ogilvie.post.plot._motions import motions, response_spectra
 from ogilvie.post.plot._overview import overview
 from ogilvie.post.plot._radiation import coefficients, retardation
@@ -13,6 +14,7 @@ __all__ = [
     "custom",
     "excitation",
     "hull",
+    "mooring",
     "motions",
     "overview",
     "rao",
