@@ -8,6 +8,7 @@ import xarray as xr
 
 from ogilvie.body import RigidBody
 from ogilvie.errors import InputError, OgilvieWarning
+from ogilvie.hydro.at_speed import at_speed
 from ogilvie.hydro.rao import rao
 from ogilvie.hydro.response import response_spectrum, response_statistics
 from ogilvie.hydro.schema import DOFS, hydro_from_arrays
@@ -81,7 +82,8 @@ def test_subset_of_dofs():
 
 def test_speed_uses_the_signed_encounter_frequency():
     U, b = 9.0, np.array([0.0, 70 * deg, np.pi])
-    hydro = vessel(speed=U, directions=b, added_mass=np.ones((40, 6, 6)) + 3 * np.eye(6))
+    still = vessel(directions=b, added_mass=np.ones((40, 6, 6)) + 3 * np.eye(6))
+    hydro = at_speed(still.drop_vars("excitation_force"), U).assign(excitation_force=still.excitation_force)
     with pytest.warns(OgilvieWarning, match="exceeds the radiation data"):
         X = rao(hydro)
     omega_e = encounter_frequency(OMEGA[:, None], speed=U, direction=b)
@@ -92,11 +94,18 @@ def test_speed_uses_the_signed_encounter_frequency():
     # overtaken waves: the equation with e^{-i|w_e|t}, that is the conjugate problem at |omega_e|
     i, j = np.argwhere(omega_e < -0.3)[0]
     w = -omega_e[i, j]
-    B = np.array([[np.interp(w, OMEGA, hydro.radiation_damping.values[:, p, q]) for q in range(6)] for p in range(6)])
-    A = np.array([[np.interp(w, OMEGA, hydro.added_mass.values[:, p, q]) for q in range(6)] for p in range(6)])
+    there = hydro_from_arrays(
+        omega=[w], added_mass=_between(still.added_mass, w), radiation_damping=_between(still.radiation_damping, w)
+    )
+    there = at_speed(there, U)
+    A, B = there.added_mass.values[0], there.radiation_damping.values[0]
     Z = -(w**2) * (hydro.inertia_matrix.values + A) + 1j * w * B + hydro.hydrostatic_stiffness.values
     conjugate = np.linalg.solve(Z, np.conj(hydro.excitation_force.values[i, j]))
     np.testing.assert_allclose(X.values[i, j], np.conj(conjugate), rtol=5e-3)
+
+
+def _between(M, w):
+    return np.array([[[np.interp(w, OMEGA, M.values[:, p, q]) for q in range(6)] for p in range(6)]])
 
 
 def test_speed_given_beside_the_data_warns():
