@@ -80,7 +80,7 @@ def at_speed(hydro: xr.Dataset, speed: float, *, hull: "PanelMesh | None" = None
 
     References
     ----------
-    N. Salvesen, E. O. Tuck and O. Faltinsen, Ship motions and sea loads, SNAME Transactions 78 (1970) 250, Tables 1 and 2.
+    N. Salvesen, E. O. Tuck and O. Faltinsen, Ship motions and sea loads, SNAME Transactions 78 (1970) 250.
 
     Examples
     --------

@@ -1,7 +1,7 @@
 """What a steady speed does to the fluid's momentum, added mass, damping and diffraction force (kernel; exp(+i omega t)).
 
-In axes that advance with the mean speed U the body's velocity relative to the water is nu = xi' - U L xi: bow down (pitch) it
-moves downwards through the water as if it heaved, bow to port (yaw) it moves to starboard. With the fluid's momentum
+In axes that advance with the mean speed U the body's velocity relative to the water is nu = xi' - U L xi: with the bow down
+(pitch) it moves upwards across its own axis, with the bow to port (yaw) to starboard. With the fluid's momentum
 p = T nu, T = A + B/s, s = i omega, the force on the body is F = -(d/dt + U L^T) p, hence
 
     T_U = (1 + U L^T/s) T (1 - U L/s).
