@@ -214,6 +214,25 @@ def test_wave_forces_are_near_those_of_the_panel_method(panel_method):
         assert error < 0.6 * unmoved, (DOFS[i], error, unmoved)
 
 
+def test_overtaken_waves_are_near_those_of_the_panel_method(panel_method):
+    """At 4 m/s the hull overtakes following waves from 2.5 rad/s: the conjugate problem, found in two ways."""
+    still, *_ = panel_method
+    hull, speed, omega = wigley(3.0, kind="III", panels=250), 4.0, still.omega.values[5:11]  # 2.8 to 4.8 rad/s
+    options = {"wave_direction": [0.0, 20 * deg], "rho": 1000.0, "g": 9.81, "progress": False}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", OgilvieWarning)
+        theirs = solve_bem(hull, omega=omega, speed=speed, **options)
+        rest = solve_bem(hull, omega=still.omega.values, **options)
+    assert _encounters(theirs).max() < -0.2
+    ours = moved(rest, speed).sel(omega=omega).diffraction_force.values
+    wanted = theirs.diffraction_force.values
+    for i in (0, 2, 4):
+        size = np.abs(theirs.excitation_force.values[..., i]).max()
+        error, turned = (np.abs(X - wanted)[..., i].max() / size for X in (ours, ours.conj()))
+        assert error < 0.1, (DOFS[i], error)
+        assert error < 0.2 * turned, "the test would not see the conjugate"
+
+
 def _encounters(hydro):
     return encounter_frequency(
         hydro.omega.values[:, None], speed=hydro.attrs["speed"], direction=hydro.wave_direction.values, g=hydro.attrs["g"]
