@@ -22,7 +22,7 @@ references. Both neglect that speed changes the flow at the free surface. The ru
 motions of the hull alone: it is good in waves longer than the ship, poor in much shorter ones, which hardly move it. The paper
 gives no radii of gyration; the usual 0.37 B and 0.25 Lpp are taken. Significant values are double amplitudes (4 standard
 deviations) of the motion in waves up to 1.4 rad/s; shorter ones (less than 0.22 of the length) do not move the ship. The panel
-method runs on every second line of the surface grid: at 0.7 rad/s, heave and pitch, within 1.5 % of the whole grid; the shortest
+method runs on every second line of the surface grid (at 0.7 rad/s, heave and pitch, within 1.5 % of the whole); the shortest
 waves of encounter are not resolved everywhere. The paper's GM_L, 2.66 m, is a misprint: it is about 296 m."""
 NEEDS: list[str] = []
 HEIGHT = 6.2
