@@ -8,6 +8,7 @@ import xarray as xr
 
 from ogilvie.body import RigidBody
 from ogilvie.errors import InputError, OgilvieWarning
+from ogilvie.hydro.at_speed import at_speed
 from ogilvie.hydro.rao import rao
 from ogilvie.hydro.response import response_spectrum, response_statistics
 from ogilvie.hydro.schema import DOFS, hydro_from_arrays
@@ -81,7 +82,8 @@ def test_subset_of_dofs():
 
 def test_speed_uses_the_signed_encounter_frequency():
     U, b = 9.0, np.array([0.0, 70 * deg, np.pi])
-    hydro = vessel(speed=U, directions=b, added_mass=np.ones((40, 6, 6)) + 3 * np.eye(6))
+    still = vessel(directions=b, added_mass=np.ones((40, 6, 6)) + 3 * np.eye(6))
+    hydro = at_speed(still.drop_vars("excitation_force"), U).assign(excitation_force=still.excitation_force)
     with pytest.warns(OgilvieWarning, match="exceeds the radiation data"):
         X = rao(hydro)
     omega_e = encounter_frequency(OMEGA[:, None], speed=U, direction=b)
@@ -92,11 +94,18 @@ def test_speed_uses_the_signed_encounter_frequency():
     # overtaken waves: the equation with e^{-i|w_e|t}, that is the conjugate problem at |omega_e|
     i, j = np.argwhere(omega_e < -0.3)[0]
     w = -omega_e[i, j]
-    B = np.array([[np.interp(w, OMEGA, hydro.radiation_damping.values[:, p, q]) for q in range(6)] for p in range(6)])
-    A = np.array([[np.interp(w, OMEGA, hydro.added_mass.values[:, p, q]) for q in range(6)] for p in range(6)])
+    there = hydro_from_arrays(
+        omega=[w], added_mass=_between(still.added_mass, w), radiation_damping=_between(still.radiation_damping, w)
+    )
+    there = at_speed(there, U)
+    A, B = there.added_mass.values[0], there.radiation_damping.values[0]
     Z = -(w**2) * (hydro.inertia_matrix.values + A) + 1j * w * B + hydro.hydrostatic_stiffness.values
     conjugate = np.linalg.solve(Z, np.conj(hydro.excitation_force.values[i, j]))
     np.testing.assert_allclose(X.values[i, j], np.conj(conjugate), rtol=5e-3)
+
+
+def _between(M, w):
+    return np.array([[[np.interp(w, OMEGA, M.values[:, p, q]) for q in range(6)] for p in range(6)]])
 
 
 def test_speed_given_beside_the_data_warns():
@@ -278,3 +287,42 @@ def test_unknown_motions_matter_only_where_the_sea_has_energy():
     values[(w > 0.6) & (w < 0.8)] = np.nan
     with pytest.raises(InputError, match="where the sea has energy"):
         response_statistics(operator(values, w, [0.0]), SEA, direction=0.0)
+
+
+def test_motions_of_a_strip_theory_code_at_five_speeds(shared_data):
+    """S175 of VERES, 0 to 20 knots, head to following seas: its coefficients and forces give its motions, phases included.
+
+    Waves that the ship overtakes are left out: VERES puts |omega_e| into the impedance there.
+    """
+    from scipy.io import loadmat
+
+    from ogilvie.frames import Z_DOWN
+
+    s175 = loadmat(shared_data / "mss_shipx_s175" / "s175.mat", squeeze_me=True, struct_as_record=False)["vessel"]
+    A, B = (M.transpose(3, 2, 0, 1) * Z_DOWN[:, None] * Z_DOWN for M in (s175.A, s175.B))
+    M, C = (m * Z_DOWN[:, None] * Z_DOWN for m in (s175.MRB, s175.C[:, :, 0, 0]))
+    forces, motions = (
+        np.stack([a * np.exp(1j * p) for a, p in zip(raos.amp, raos.phase, strict=True)], axis=-1) * Z_DOWN
+        for raos in (s175.forceRAO, s175.motionRAO)
+    )  # (n_w, n_b, n_u, 6), about the centre of gravity; matrices about midship
+    x_G = s175.main.CG[0]
+    forces[..., 4] -= x_G * forces[..., 2]
+    motions[..., 2] += x_G * motions[..., 4]
+    some = [0, 3, 6, 12, 15, 18]  # 0, 30, 60, 120, 150, 180 deg clockwise
+    keep = {"influenced_dof": ["surge", "heave", "pitch"], "radiating_dof": ["surge", "heave", "pitch"]}
+    order = np.argsort(-s175.headings[some])
+    for n, speed in enumerate(s175.velocities):
+        hydro = hydro_from_arrays(
+            omega=s175.freqs, added_mass=A[n], radiation_damping=B[n], wave_direction=-s175.headings[some],
+            excitation_force=forces[:, some, n], hydrostatic_stiffness=C, inertia_matrix=M, g=9.81, speed=float(speed),
+        )  # fmt: skip
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", OgilvieWarning)
+            X = rao(hydro.sel(keep))
+        wanted = motions[:, np.array(some)[order], n]
+        met = (X.encounter_frequency.values > 0.0) & np.isfinite(X.values).all(axis=-1)
+        for dof, i, allowed in (("heave", 2, 0.03), ("pitch", 4, 0.08)):
+            away = np.where(met, np.abs(X.sel(dof=dof).values - wanted[:, :, i]), 0.0).max(axis=0)
+            error = away / np.abs(wanted[:, :, i]).max(axis=0)
+            assert np.all(error[:3] < 0.006), (speed, dof, error)  # head and bow
+            assert np.all(error < allowed), (speed, dof, error)  # following: few data at low omega_e

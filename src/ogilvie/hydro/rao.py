@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from ogilvie.body import RigidBody
 from ogilvie.errors import InputError, OgilvieWarning
 from ogilvie.hydro.mirror import is_symmetric
+from ogilvie.hydro.speed_terms import fluid_momentum, speed_matrix
 from ogilvie.waves.dispersion import encounter_frequency
 
 Array = NDArray[np.float64]
@@ -43,7 +44,8 @@ def rao(
         Added to the radiation damping (viscous roll damping), about O. What WAMIT added to its own motions is
         ``hydro.external_damping``; it is not used unless given here.
     speed : float, optional
-        Forward speed, m/s; that of the data by default. With another only the encounter frequency follows, with a warning.
+        Forward speed, m/s; that of the data by default. With another only the encounter frequency follows, with a warning;
+        :func:`ogilvie.at_speed` makes coefficients and forces follow too.
 
     Returns
     -------
@@ -68,7 +70,10 @@ def rao(
     [-omega_e^2 (M + A) + i omega_e (B + B_ext) + C + C_ext] X = F(omega, b). A and B are even in omega_e, so the negative
     omega_e of overtaken waves turns the sign of the damping term, as it must. Between the frequencies of the data A and B are
     interpolated monotonically (PCHIP); down to omega_e = 0, B falls to 0 and A goes to ``added_mass_zero`` or, without it,
-    keeps its first value.
+    keeps its first value. Coefficients at speed, which grow as 1/omega_e^2, are interpolated without their terms of speed
+    (:mod:`ogilvie.hydro.speed_terms`), which are put back at omega_e: the impedance -omega_e^2 A + i omega_e B then has its
+    limit -U^2 L^T A L at omega_e = 0. At negative omega_e X is
+    the conjugate of the motion at -omega_e under the conjugate force.
 
     Examples
     --------
@@ -91,9 +96,8 @@ def rao(
         omega[:, None], speed=U, direction=b, depth=hydro.attrs["water_depth"], g=hydro.attrs["g"]
     )  # (n_w, n_b)
     _warn_of_resonance(hydro, M, C, B_ext, dofs)
-    A, B = _radiation(hydro, omega_e)  # (n_w, n_b, n, n)
     w = omega_e[..., None, None]
-    Z = -(w**2) * (M + A) + 1j * w * (B + B_ext) + C
+    Z = -(w**2) * M + 1j * w * B_ext + C + _radiation(hydro, omega_e)  # (n_w, n_b, n, n)
     X = _solve(Z, hydro.excitation_force.values, dofs, omega_e)
     return xr.DataArray(
         X,
@@ -179,35 +183,46 @@ def _speed(hydro: xr.Dataset, speed: float | None) -> float:
         raise InputError(f"speed: a finite number of m/s expected, {speed!r} found.")
     if abs(speed - own) > 1e-6 * max(1.0, abs(own)):
         warnings.warn(
-            f"rao: the coefficients hold for {own:.4g} m/s; at {speed:.4g} m/s only the encounter frequency follows.",
+            f"rao: the coefficients hold for {own:.4g} m/s; at {speed:.4g} m/s only the encounter frequency follows. "
+            "Coefficients for that speed: at_speed(hydro, speed).",
             OgilvieWarning,
             stacklevel=3,
         )
     return float(speed)
 
 
-def _radiation(hydro: xr.Dataset, omega_e: Array) -> tuple[Array, Array]:
-    """Return A and B (n_w, n_b, n, n) at |omega_e|; NaN above the data."""
+def _radiation(hydro: xr.Dataset, omega_e: Array) -> ComplexArray:
+    """Return the impedance -omega_e^2 A + i omega_e B (n_w, n_b, n, n); NaN above the data."""
     omega, A, B = hydro.omega.values, hydro.added_mass.values, hydro.radiation_damping.values
+    w = omega_e[..., None, None]
     if np.array_equal(omega_e, np.broadcast_to(omega[:, None], omega_e.shape)):
-        return A[:, None], B[:, None]
-    from scipy.interpolate import PchipInterpolator
-
-    A_zero = hydro.added_mass_zero.values if "added_mass_zero" in hydro else A[0]
-    w = np.r_[0.0, omega]
-    at = np.abs(omega_e)
-    beyond = at > omega[-1] * (1.0 + 1e-9)
+        return np.asarray(-(w**2) * A[:, None] + 1j * w * B[:, None])
+    beyond = np.abs(omega_e) > omega[-1] * (1.0 + 1e-9)
     if beyond.any():
         warnings.warn(
             f"rao: the encounter frequency exceeds the radiation data ({omega[-1]:.4g} rad/s) at {int(beyond.sum())} of "
-            f"{beyond.size} points, up to {at.max():.4g} rad/s; no motion is given there. Extend the data upwards.",
+            f"{beyond.size} points, up to {np.abs(omega_e).max():.4g} rad/s; no motion there. Extend the data upwards.",
             OgilvieWarning,
             stacklevel=3,
         )
-    at = np.where(beyond, np.nan, np.minimum(at, omega[-1]))
-    A_at = PchipInterpolator(w, np.concatenate([A_zero[None], A]))(at)
-    B_at = PchipInterpolator(w, np.concatenate([np.zeros_like(B[:1]), B]))(at)
-    return A_at, B_at
+    at = np.where(beyond, np.nan, np.clip(omega_e, -omega[-1], omega[-1]))
+    U, L = float(hydro.attrs.get("speed", 0.0)), speed_matrix([str(d) for d in hydro.influenced_dof.values])
+    if U != 0.0 and L is not None:
+        return _impedance_at_speed(hydro, at, U, L)
+    from scipy.interpolate import PchipInterpolator
+
+    A_zero = hydro.added_mass_zero.values if "added_mass_zero" in hydro else A[0]
+    grid = np.r_[0.0, omega]
+    A_at = PchipInterpolator(grid, np.concatenate([A_zero[None], A]))(np.abs(at))
+    B_at = PchipInterpolator(grid, np.concatenate([np.zeros_like(B[:1]), B]))(np.abs(at))
+    return np.asarray(-(w**2) * A_at + 1j * w * B_at)
+
+
+def _impedance_at_speed(hydro: xr.Dataset, omega_e: Array, U: float, L: Array) -> ComplexArray:
+    """Return (s + U L^T) T (s - U L) with s = i omega_e and T interpolated at zero speed."""
+    T = fluid_momentum(hydro, speed=U, L=L).at(omega_e)
+    s = 1j * omega_e[..., None, None] * np.eye(len(L))
+    return np.asarray((s + U * L.T) @ T @ (s - U * L))
 
 
 def _solve(Z: NDArray, F: ComplexArray, dofs: list[str], omega_e: Array) -> ComplexArray:

@@ -11,7 +11,8 @@ wave_direction (coord)      wave_direction                                 rad, 
 added_mass                  omega, influenced_dof, radiating_dof           kg, kg m, kg m2
 radiation_damping           omega, influenced_dof, radiating_dof           kg/s, ...
 added_mass_inf              influenced_dof, radiating_dof                  optional
-added_mass_zero             influenced_dof, radiating_dof                  optional
+added_mass_zero             influenced_dof, radiating_dof                  optional; at zero speed only
+radiation_damping_inf       influenced_dof, radiating_dof                  optional; at forward speed, where it is not zero
 excitation_force            omega, wave_direction, influenced_dof          N/m, N; complex, per metre of wave amplitude
 Froude_Krylov_force         same                                           optional; part of excitation_force
 diffraction_force           same                                           optional; part of excitation_force
@@ -66,6 +67,7 @@ VARIABLES: dict[str, tuple[tuple[str, ...], bool]] = {
     "radiation_damping": (_RADIATION, False),
     "added_mass_inf": (_MATRIX, False),
     "added_mass_zero": (_MATRIX, False),
+    "radiation_damping_inf": (_MATRIX, False),
     "excitation_force": (_FORCE, True),
     "Froude_Krylov_force": (_FORCE, True),
     "diffraction_force": (_FORCE, True),

@@ -118,7 +118,7 @@ class WaveExcitation:
         if abs(at - own) > 1e-6 * max(1.0, abs(at)):
             warnings.warn(
                 f"WaveExcitation: the coefficients hold for {own:.4g} m/s, the vessel sails at {at:.4g} m/s; "
-                "their dependence on speed is left out. Give coefficients for the vessel's speed.",
+                "their dependence on speed is left out. Give coefficients for the vessel's speed: at_speed(hydro, speed).",
                 OgilvieWarning,
                 stacklevel=2,
             )
