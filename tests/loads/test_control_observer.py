@@ -20,14 +20,15 @@ def transfer(F, G, C, w):
 
 @pytest.mark.parametrize("l", [0.05, 0.1, 0.3])
 def test_transfer_from_measurement_to_position_and_wave_is_the_closed_form(l):
-    wf = WaveFilter(0.7, wave_damping=l, cutoff=0.9, bandwidth=0.12, bias_time=800.0)
+    wf = WaveFilter(0.7, wave_damping=l, cutoff=0.9, bandwidth=0.08, bias_time=800.0)
     F, G, _ = wf.continuous(M1, D1)
     w = np.geomspace(0.005, 5.0, 60)
-    s, wo, wc, wb = 1j * w, 0.7, 0.9, 0.12
-    f = wc - 2 * wb
+    s, wo, wc, wb = 1j * w, 0.7, 0.9, 0.08
+    part = 1 + 2 * (1 - l) * wc / wo
+    f = wc / part - 2 * wb
     wave = (2 * wo * (1 - l) * s + wo**2 * 2 * (1 - l) * wc / wo) / (s**2 + 2 * l * wo * s + wo**2)
     m, d = M1[0, 0], D1[0, 0]
-    low = (wc + (m * (wb**2 + 2 * wb * f) + m * f * wb**2 / (s + 1 / 800.0)) / (m * s + d)) / s
+    low = (wc + part * m * (wb**2 + 2 * wb * f + f * wb**2 / (s + 1 / 800.0)) / (m * s + d)) / s
     assert transfer(F, G, np.eye(5)[POSITION], w) == pytest.approx(low / (1 + wave + low), rel=1e-9)
     assert transfer(F, G, np.eye(5)[WAVE], w) == pytest.approx(wave / (1 + wave + low), rel=1e-9)
 
@@ -45,12 +46,22 @@ def test_notch_of_the_innovation_is_the_published_one():
     assert innovation == pytest.approx(notch, rel=1e-4)
 
 
-def test_low_frequency_poles_are_placed_where_the_notch_is_one():
-    wo, wb = 50.0, 0.02
-    wf = WaveFilter(wo, cutoff=51.0, bandwidth=wb, wave_damping=0.999999, bias_time=1e9)
-    poles = np.linalg.eigvals(wf.continuous(M1, 0 * D1)[0])
-    slow = poles[np.argsort(np.abs(poles))[:2]]
-    assert slow.mean().real == pytest.approx(-wb, rel=1e-3)
+def test_slow_poles_are_placed_to_first_order():
+    wb, errors = 0.02, []
+    for wo in (1.0, 10.0, 100.0):
+        wf = WaveFilter(wo, bandwidth=wb, bias_time=1e9)
+        poles = np.linalg.eigvals(wf.continuous(M1, 0 * D1)[0])
+        slow = poles[np.argsort(np.abs(poles))[:2]]
+        errors.append(abs(slow.mean() / -wb - 1))
+    assert errors[0] < 0.1
+    assert errors[1] < 0.2 * errors[0]
+    assert errors[2] < 0.2 * errors[1]
+
+
+def test_default_tuning_is_well_damped():
+    for wo in (0.4, 0.7, 1.2):
+        poles = np.linalg.eigvals(WaveFilter(wo).continuous(M1, 0 * D1)[0])
+        assert np.all(-poles.real / np.abs(poles) > 0.9)
 
 
 def test_step_is_exact_for_a_linear_measurement_and_a_held_force():
@@ -93,7 +104,7 @@ def test_waves_are_removed_and_slow_motion_is_followed():
     coefficient = 2 * np.mean(slow[:, POSITION] * np.exp(-1j * ws * t[late])) * 1j
     lag = -np.angle(coefficient) / ws
     assert np.abs(coefficient) == pytest.approx(1.0, abs=0.05)
-    assert abs(lag) < 2.0  # s, of a motion of 314 s
+    assert abs(lag) < 3.0  # s, of a motion of 314 s
     assert np.abs(slow[:, POSITION] - np.sin(ws * t[late])).max() < 0.05
 
 
@@ -147,7 +158,7 @@ def test_estimates_turn_with_the_world():
         ({"wave_frequency": "long"}, "wave_frequency"),
         ({"wave_frequency": 0.7, "cutoff": 0.5}, "cutoff above"),
         ({"wave_frequency": 0.7, "wave_damping": 1.5}, "no notch"),
-        ({"wave_frequency": 0.7, "bandwidth": 0.5}, "bandwidth below half the cutoff"),
+        ({"wave_frequency": 0.7, "bandwidth": 0.5}, "bandwidth below w_e / 2"),
         ({"wave_frequency": 0.7, "bias_time": 10.0}, "passivity"),
     ],
 )

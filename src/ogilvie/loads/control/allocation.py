@@ -10,7 +10,8 @@ from ogilvie.loads.control.thruster import KIND, MAX, MIN, STEP, THRUSTER_DATA, 
 
 Array = NDArray[Any]
 
-_SMALL = 1e-12  # of the largest diagonal term: keeps the solution finite in directions in which no free thruster can act
+_SMALL = 1e-8  # of each diagonal term: keeps the solution finite where no free thruster can act; each round mends what it costs
+_IDLE = 1e-12  # of what all thrusters together do in a degree of freedom, squared: less than this is none
 
 
 @njit(cache=True, nogil=True)
@@ -43,13 +44,16 @@ def allocate(data: Array, n: int, arm: float, wanted: Array, u: Array, shortfall
     law conditioning when control effectors limit, AIAA 94-3609, for the redistribution.
     """
     new, free = np.zeros(2 * n), np.ones(n)
-    G, r = np.zeros((3, 3)), np.zeros(3)
-    for _ in range(n + 3):
+    G, r, all_free = np.zeros((3, 3)), np.zeros(3), np.zeros(3)
+    for attempt in range(n + 3):
         _remaining(data, n, wanted, new, shortfall)
         r[0], r[1], r[2] = shortfall[0], shortfall[1], shortfall[2] / arm
         _gram(data, n, arm, free, G)
-        if max(G[0, 0], G[1, 1], G[2, 2]) == 0.0:
-            break
+        for j in range(3):
+            if attempt == 0:
+                all_free[j] = G[j, j]
+            if G[j, j] <= _IDLE * all_free[j]:
+                G[j, :], G[:, j], G[j, j], r[j] = 0.0, 0.0, 1.0, 0.0
         _solve3(G, r)
         for i in range(n):
             if free[i] != 0.0:
@@ -125,10 +129,9 @@ def _gram(data: Array, n: int, arm: float, free: Array, G: Array) -> None:
 
 @njit(cache=True, nogil=True)
 def _solve3(G: Array, r: Array) -> None:
-    """Solve G x = r for a symmetric G >= 0, made definite by a small multiple of its size; x replaces r."""
-    size = max(G[0, 0], G[1, 1], G[2, 2])
+    """Solve G x = r for a symmetric G >= 0, made definite by a small part of its diagonal; x replaces r."""
     for j in range(3):
-        G[j, j] += _SMALL * size
+        G[j, j] *= 1.0 + _SMALL
     for j in range(3):
         for i in range(j + 1, 3):
             f = G[i, j] / G[j, j]

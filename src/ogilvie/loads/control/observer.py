@@ -33,7 +33,7 @@ class WaveFilter:
     notch_damping : float
         z: the width of the notch.
     bandwidth : float, optional
-        w_b, rad/s: the observer follows low-frequency motion up to about here; w_o / 5 where not given.
+        w_b, rad/s: the observer follows low-frequency motion up to about here; w_e / 4 where not given, see the notes.
     bias_time : float
         Time constant T_b of the slowly varying force, s.
 
@@ -49,12 +49,14 @@ class WaveFilter:
         xi_1' = xi_2 + k1 y~                            k1 = -2 (z - l) w_c / w_o
         xi_2' = -w_o^2 xi_1 - 2 l w_o xi_2 + k2 y~      k2 = 2 w_o (z - l)
         eta'  = nu + w_c y~
-        b'    = -b / T_b + K3 y~                        K3 = M f w_b^2
-        M nu' = -D nu + b + tau + K4 y~                 K4 = M (w_b^2 + 2 w_b f)
+        b'    = -b / T_b + K3 y~                        K3 = M (w_c / w_e) f w_b^2
+        M nu' = -D nu + b + tau + K4 y~                 K4 = M (w_c / w_e) (w_b^2 + 2 w_b f)
 
     k1 and k2 make the transfer from y to y~, seen without K3 and K4,
-    s (s^2 + 2 l w_o s + w_o^2) / ((s^2 + 2 z w_o s + w_o^2)(s + w_c)): a notch at the waves. K3 and K4 give the low-frequency
-    error the poles -f = -(w_c - 2 w_b) and twice -w_b where the notch is 1. Passive for 1/T_b < K3/K4 < w_o < w_c.
+    s (s^2 + 2 l w_o s + w_o^2) / ((s^2 + 2 z w_o s + w_o^2)(s + w_c)): a notch at the waves. Well below them the wave
+    model takes a constant part of the measurement, so that the cutoff acts as w_e = w_c / (1 + 2 (z - l) w_c / w_o); K3
+    and K4 put the slow poles at -f = -(w_e - 2 w_b) and twice -w_b, to first order in w_b / w_o. Passive for
+    1/T_b < K3/K4 < w_o < w_c.
 
     The step is exact (matrix exponential) for a measurement that is linear between two samples and a force that is held, with
     the heading of the middle of the period: stable at every sampling period for which the observer itself is.
@@ -85,19 +87,18 @@ class WaveFilter:
             raise InputError(f"{what}wave_frequency: positive numbers (rad/s) expected, {self.wave_frequency!r} found.")
         low, high = float(peak.min()), float(peak.max())
         cutoff = high * 1.1 / 0.8976 if self.cutoff is None else positive(self.cutoff, what + "cutoff", "rad/s")
-        band = low / 5.0 if self.bandwidth is None else positive(self.bandwidth, what + "bandwidth", "rad/s")
-        z, l = (
-            positive(self.notch_damping, what + "notch_damping", "-"),
-            positive(self.wave_damping, what + "wave_damping", "-"),
-        )
+        z = positive(self.notch_damping, what + "notch_damping", "-")
+        l = positive(self.wave_damping, what + "wave_damping", "-")
         T = positive(self.bias_time, what + "bias_time", "s")
         if not l < z:
             raise InputError(f"{what}wave_damping below notch_damping expected, {l:g} and {z:g} found: there is no notch.")
         if not high < cutoff:
             raise InputError(f"{what}cutoff above the wave frequency {high:g} rad/s expected, {cutoff:g} rad/s found.")
-        if not 2.0 * band < cutoff:
-            raise InputError(f"{what}bandwidth below half the cutoff {cutoff:g} rad/s expected, {band:g} rad/s found.")
-        ratio = (cutoff - 2 * band) * band / (band + 2 * (cutoff - 2 * band))
+        slow = cutoff / (1 + 2 * (z - l) * cutoff / low)  # w_e
+        band = slow / 4.0 if self.bandwidth is None else positive(self.bandwidth, what + "bandwidth", "rad/s")
+        if not 2.0 * band < slow:
+            raise InputError(f"{what}bandwidth below w_e / 2 = {slow / 2:.3g} rad/s expected, {band:g} rad/s found.")
+        ratio = (slow - 2 * band) * band / (band + 2 * (slow - 2 * band))
         if not 1.0 / T < ratio < low:
             raise InputError(
                 f"{what}1 / bias_time < K3 / K4 < wave_frequency expected for passivity, "
@@ -109,18 +110,14 @@ class WaveFilter:
     def continuous(self, M: Array, D: Array) -> tuple[Array, Array, Array]:
         """Return F (5 n, 5 n), G (5 n, n), B (5 n, n) of z' = F z + G y + B tau about inertia M and damping D, each (n, n)."""
         n = len(M)
-        w = vector(
-            self.wave_frequency if np.size(self.wave_frequency) > 1 else np.ravel(self.wave_frequency)[0],
-            (n,),
-            _PEAK,
-            fill=True,
-        )
+        peak = np.ravel(np.asarray(self.wave_frequency))
+        w = vector(peak if peak.size > 1 else peak[0], (n,), _PEAK, fill=True)
         I, Z, inverse = np.eye(n), np.zeros((n, n)), np.linalg.inv(M)
         wc, wb, z, l = float(self.cutoff or 0.0), float(self.bandwidth or 0.0), self.notch_damping, self.wave_damping
-        f = wc - 2 * wb
-        G = np.vstack(
-            [np.diag(-2 * (z - l) * wc / w), np.diag(2 * w * (z - l)), wc * I, M * f * wb**2, (wb**2 + 2 * wb * f) * I]
-        )
+        part = 1 + 2 * (z - l) * wc / w  # w_c / w_e
+        f = wc / part - 2 * wb
+        k3, k4 = part * f * wb**2, part * (wb**2 + 2 * wb * f)
+        G = np.vstack([np.diag(-2 * (z - l) * wc / w), np.diag(2 * w * (z - l)), wc * I, M @ np.diag(k3), np.diag(k4)])
         A = np.block(
             [
                 [Z, I, Z, Z, Z],

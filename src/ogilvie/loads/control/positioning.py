@@ -64,8 +64,8 @@ class DynamicPositioning:
     With the error e = R^T(psi)(eta_d - eta) along the vessel, heading wrapped, and the estimates of the wave filter for eta and
     nu: tau = M R^T eta_d'' + D R^T eta_d' + Kp e + Kd (R^T eta_d' - nu) + R^T z, z' = R Ki e: the integral stays in the world,
     where the mean force of weather does. Gains as in :func:`ogilvie.loads.control.pid.pid_gains` from the horizontal part of
-    the body's inertia about O plus added mass. The integral of a degree of freedom stops while it falls short and its error would
-    drive it further. Allocation: :func:`ogilvie.loads.control.allocation.allocate`.
+    the body's inertia about O plus added mass. The integral of a degree of freedom stops while it falls short and its error
+    would drive it further. Allocation: :func:`ogilvie.loads.control.allocation.allocate`.
 
     References
     ----------
