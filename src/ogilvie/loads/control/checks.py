@@ -59,6 +59,20 @@ def limit(value: float, what: str, unit: str) -> float:
     return _number(value, what, f"a positive number or infinity ({unit})", lambda x: x > 0.0)
 
 
+def limits(value: ArrayLike, n: int, what: str, unit: str) -> Array:
+    """Return n limits as :func:`limit` takes them; one number serves all.
+
+    Examples
+    --------
+    >>> limits(5.0, 3, "max_force", "N")
+    array([5., 5., 5.])
+    """
+    several: list[Any] = [value] * n if np.ndim(value) == 0 else np.ravel(np.asarray(value, dtype=object)).tolist()
+    if len(several) != n:
+        raise InputError(f"{what}: {n} positive numbers or infinity ({unit}) expected, {len(several)} found.")
+    return np.array([limit(number, what, unit) for number in several])
+
+
 def vector(value: ArrayLike, shape: tuple[int, ...], what: str, *, fill: bool = False) -> Array:
     """Return a finite, read-only array of this shape or raise :class:`InputError`; with `fill` one number serves all.
 

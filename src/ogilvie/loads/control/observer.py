@@ -8,7 +8,7 @@ from numba import njit
 from numpy.typing import ArrayLike, NDArray
 
 from ogilvie.errors import InputError
-from ogilvie.loads.control.checks import positive, vector
+from ogilvie.loads.control.checks import limit, positive, vector
 
 Array = NDArray[Any]
 
@@ -35,7 +35,8 @@ class WaveFilter:
     bandwidth : float, optional
         w_b, rad/s: the observer follows low-frequency motion up to about here; w_e / 4 where not given, see the notes.
     bias_time : float
-        Time constant T_b of the slowly varying force, s.
+        Time constant T_b of the slowly varying force, s; infinity (an integrator) leaves no error under a constant force, a
+        finite one an error in proportion to the force over T_b.
 
     Raises
     ------
@@ -77,7 +78,7 @@ class WaveFilter:
     wave_damping: float = field(default=0.1, kw_only=True)
     notch_damping: float = field(default=1.0, kw_only=True)
     bandwidth: float | None = field(default=None, kw_only=True)
-    bias_time: float = field(default=1000.0, kw_only=True)
+    bias_time: float = field(default=np.inf, kw_only=True)
 
     def __post_init__(self) -> None:
         what = "WaveFilter: "
@@ -89,7 +90,7 @@ class WaveFilter:
         cutoff = high * 1.1 / 0.8976 if self.cutoff is None else positive(self.cutoff, what + "cutoff", "rad/s")
         z = positive(self.notch_damping, what + "notch_damping", "-")
         l = positive(self.wave_damping, what + "wave_damping", "-")
-        T = positive(self.bias_time, what + "bias_time", "s")
+        T = limit(self.bias_time, what + "bias_time", "s")
         if not l < z:
             raise InputError(f"{what}wave_damping below notch_damping expected, {l:g} and {z:g} found: there is no notch.")
         if not high < cutoff:

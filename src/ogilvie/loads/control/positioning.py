@@ -11,7 +11,7 @@ from ogilvie.errors import InputError
 from ogilvie.loads.base import Surroundings, Terms
 from ogilvie.loads.control import positioning_kernel as k
 from ogilvie.loads.control.autopilot import HEADING_CONTROL
-from ogilvie.loads.control.checks import horizontal, limit, positive, vector
+from ogilvie.loads.control.checks import horizontal, limit, limits, positive, vector
 from ogilvie.loads.control.observer import WAVE, WaveFilter
 from ogilvie.loads.control.pid import check_sampling, pid_gains
 from ogilvie.loads.control.reference import reference_data
@@ -111,10 +111,7 @@ class DynamicPositioning:
             raise InputError(f"{what}wave_filter: a WaveFilter expected, {type(self.wave_filter).__name__} found.")
         limit(self.max_speed, what + "max_speed", "m/s")
         limit(self.max_rate, what + "max_rate", "rad/s")
-        force = (
-            np.broadcast_to(np.asarray(self.max_force, dtype=float), (3,)) if np.ndim(self.max_force) < 2 else self.max_force
-        )
-        put("max_force", np.array([limit(float(f), what + "max_force", "N, N m") for f in np.ravel(force)]))
+        put("max_force", limits(self.max_force, 3, what + "max_force", "N, N m"))
         positive(self.period, what + "period", "s")
         put("thrusters", _units(self.thrusters, self.design_force))
 
