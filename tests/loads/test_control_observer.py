@@ -64,6 +64,17 @@ def test_default_tuning_is_well_damped():
         assert np.all(-poles.real / np.abs(poles) > 0.9)
 
 
+@pytest.mark.parametrize("wo", [0.4, 0.7, 1.2])
+def test_default_tuning_is_passive(wo):
+    """Phase of the loop above -90 deg: notch over s, times (s + K3/K4) / s."""
+    _, G, _ = WaveFilter(wo).continuous(M1, D1)
+    w = np.geomspace(1e-4, 1e2, 4000)
+    s, wc, ratio = 1j * w, WaveFilter(wo).cutoff, G[BIAS, 0] / (M1[0, 0] * G[VELOCITY, 0])
+    notch = (s**2 + 2 * 0.1 * wo * s + wo**2) / ((s**2 + 2 * wo * s + wo**2) * (s + wc))
+    assert np.all(np.real(notch * (s + ratio) / s) > 0.0)
+    assert 0.0 < ratio < wo < wc
+
+
 def test_step_is_exact_for_a_linear_measurement_and_a_held_force():
     T, rng = 2.0, np.random.default_rng(1)
     F, G, B = FILTER.continuous(M3, D3)

@@ -146,6 +146,14 @@ def test_integral_does_not_wind_up_while_thrust_is_short():
     assert np.abs(eta[-1]).max() < 0.05
 
 
+@pytest.mark.parametrize("factor", [0.6, 1.5])
+def test_a_wrong_inertia_in_the_law_costs_no_accuracy_in_the_end(factor):
+    wrong = factor * M - BODY.matrix[np.ix_([0, 1, 5], [0, 1, 5])]
+    law = DynamicPositioning([10.0, 0, 0.5], FLEET, added_mass=wrong, wave_filter=WaveFilter(0.7))
+    _, eta, _, _ = keep(law, 4000, weather=lambda t: np.array([5e4, 8e4, 1e6]))
+    assert eta[-1] == pytest.approx([10, 0, 0.5], abs=1e-4)
+
+
 def test_force_acts_directly_without_thrusters():
     law = DynamicPositioning([100.0, 0, 0], max_force=[1e5, np.inf, np.inf], **PLANT)
     _, _, memory, force = keep(law, 100)
@@ -202,6 +210,7 @@ def test_what_it_is_and_records():
         ({"added_mass": np.eye(2)}, "added_mass"),
         ({"max_force": [1e5, 1e5]}, "max_force"),
         ({"max_force": "none"}, "max_force"),
+        ({"thrusters": FLEET, "max_force": 1e5}, "thrusters have limits of their own"),
         ({"wave_filter": 0.7}, "a WaveFilter expected"),
         ({"period": -1.0}, "period"),
     ],

@@ -56,8 +56,12 @@ class WaveFilter:
     k1 and k2 make the transfer from y to y~, seen without K3 and K4,
     s (s^2 + 2 l w_o s + w_o^2) / ((s^2 + 2 z w_o s + w_o^2)(s + w_c)): a notch at the waves. Well below them the wave
     model takes a constant part of the measurement, so that the cutoff acts as w_e = w_c / (1 + 2 (z - l) w_c / w_o); K3
-    and K4 put the slow poles at -f = -(w_e - 2 w_b) and twice -w_b, to first order in w_b / w_o. Passive for
-    1/T_b < K3/K4 < w_o < w_c.
+    and K4 put the slow poles at -f = -(w_e - 2 w_b) and twice -w_b, to first order in w_b / w_o.
+
+    Passive, so that it is stable at every rate of turn, where the phase of the loop, the notch over s times (s + 1/T_b + K3/K4)
+    / (s + 1/T_b), stays above -90 deg: so it does with the default numbers. The published order 1/T_b < K3/K4 < w_o < w_c is
+    checked here; it is necessary and not always enough (a cutoff close to w_o, a deep notch). Stability at a fixed heading is
+    checked when it is bound.
 
     The step is exact (matrix exponential) for a measurement that is linear between two samples and a force that is held, with
     the heading of the middle of the period: stable at every sampling period for which the observer itself is.

@@ -11,7 +11,7 @@ from ogilvie.errors import InputError
 from ogilvie.loads.base import Surroundings, Terms
 from ogilvie.loads.control import positioning_kernel as k
 from ogilvie.loads.control.autopilot import HEADING_CONTROL
-from ogilvie.loads.control.checks import horizontal, limit, limits, positive, vector
+from ogilvie.loads.control.checks import NO_LIMIT, horizontal, limit, limits, positive, vector
 from ogilvie.loads.control.observer import WAVE, WaveFilter
 from ogilvie.loads.control.pid import check_sampling, pid_gains
 from ogilvie.loads.control.reference import reference_data
@@ -98,22 +98,27 @@ class DynamicPositioning:
 
     def __post_init__(self) -> None:
         what = "DynamicPositioning: "
-        put = lambda key, value: object.__setattr__(self, key, value)  # noqa: E731
-        put("setpoint", schedule(self.setpoint, 3, what + "setpoint"))
-        put("natural_frequency", _three(self.natural_frequency, what + "natural_frequency", "rad/s"))
-        put("damping", _three(self.damping, what + "damping", "-"))
-        slowest = float(np.min(np.asarray(self.natural_frequency)))
-        reference = slowest if self.reference_frequency is None else self.reference_frequency
-        put("reference_frequency", _three(reference, what + "reference_frequency", "rad/s"))
-        put("added_mass", _matrix(self.added_mass, what + "added_mass"))
-        put("linear_damping", _matrix(self.linear_damping, what + "linear_damping"))
+        frequency = _three(self.natural_frequency, what + "natural_frequency", "rad/s")
+        reference = float(frequency.min()) if self.reference_frequency is None else self.reference_frequency
+        checked = {
+            "setpoint": schedule(self.setpoint, 3, what + "setpoint"),
+            "natural_frequency": frequency,
+            "damping": _three(self.damping, what + "damping", "-"),
+            "reference_frequency": _three(reference, what + "reference_frequency", "rad/s"),
+            "added_mass": _matrix(self.added_mass, what + "added_mass"),
+            "linear_damping": _matrix(self.linear_damping, what + "linear_damping"),
+            "max_force": limits(self.max_force, 3, what + "max_force", "N, N m"),
+            "thrusters": _units(self.thrusters, self.design_force),
+        }
+        for key, value in checked.items():
+            object.__setattr__(self, key, value)
         if self.wave_filter is not None and not isinstance(self.wave_filter, WaveFilter):
             raise InputError(f"{what}wave_filter: a WaveFilter expected, {type(self.wave_filter).__name__} found.")
+        if self.thrusters is not None and np.min(np.asarray(self.max_force)) < NO_LIMIT:
+            raise InputError(f"{what}max_force is for a force without thrusters; thrusters have limits of their own.")
         limit(self.max_speed, what + "max_speed", "m/s")
         limit(self.max_rate, what + "max_rate", "rad/s")
-        put("max_force", limits(self.max_force, 3, what + "max_force", "N, N m"))
         positive(self.period, what + "period", "s")
-        put("thrusters", _units(self.thrusters, self.design_force))
 
     @property
     def covers(self) -> frozenset[str]:
