@@ -208,6 +208,8 @@ def test_what_it_is_and_records():
         ({"natural_frequency": [0.1, 0.1]}, "natural_frequency"),
         ({"natural_frequency": 0.0}, "natural_frequency"),
         ({"added_mass": np.eye(2)}, "added_mass"),
+        ({"added_mass": [[1, 2], [3]]}, "rows of different lengths"),
+        ({"setpoint": [(0, 1, 2, 3), (4, 5)]}, "setpoint"),
         ({"max_force": [1e5, 1e5]}, "max_force"),
         ({"max_force": "none"}, "max_force"),
         ({"thrusters": FLEET, "max_force": 1e5}, "thrusters have limits of their own"),

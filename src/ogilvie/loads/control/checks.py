@@ -54,7 +54,7 @@ def limit(value: float, what: str, unit: str) -> float:
     >>> limit(np.inf, "max_rate", "rad/s") == NO_LIMIT
     True
     """
-    if isinstance(value, float) and value == np.inf:
+    if isinstance(value, (int, float, np.number)) and value == np.inf:
         return NO_LIMIT
     return _number(value, what, f"a positive number or infinity ({unit})", lambda x: x > 0.0)
 
@@ -67,7 +67,7 @@ def limits(value: ArrayLike, n: int, what: str, unit: str) -> Array:
     >>> limits(5.0, 3, "max_force", "N")
     array([5., 5., 5.])
     """
-    several: list[Any] = [value] * n if np.ndim(value) == 0 else np.ravel(np.asarray(value, dtype=object)).tolist()
+    several: list[Any] = [value] * n if not shape_of(value, what) else np.ravel(np.asarray(value, dtype=object)).tolist()
     if len(several) != n:
         raise InputError(f"{what}: {n} positive numbers or infinity ({unit}) expected, {len(several)} found.")
     return np.array([limit(number, what, unit) for number in several])
@@ -93,6 +93,20 @@ def vector(value: ArrayLike, shape: tuple[int, ...], what: str, *, fill: bool = 
     return array
 
 
+def shape_of(value: ArrayLike, what: str) -> tuple[int, ...]:
+    """Return the shape of an array, or raise :class:`InputError` for nested sequences of unequal lengths.
+
+    Examples
+    --------
+    >>> shape_of([[1, 2, 3]], "added_mass")
+    (1, 3)
+    """
+    try:
+        return tuple(np.shape(value))
+    except ValueError:
+        raise InputError(f"{what}: an array expected, rows of different lengths found.") from None
+
+
 def horizontal(matrix: ArrayLike, what: str) -> Array:
     """Return the (3, 3) part for surge, sway and yaw of a (6, 6) matrix about O; a (3, 3) one is taken as it is.
 
@@ -101,7 +115,7 @@ def horizontal(matrix: ArrayLike, what: str) -> Array:
     >>> horizontal(np.diag([1.0, 2, 3, 4, 5, 6]), "added_mass").diagonal()
     array([1., 2., 6.])
     """
-    shape = np.shape(matrix)
+    shape = shape_of(matrix, what)
     if shape not in ((3, 3), (6, 6)):
         raise InputError(f"{what}: shape (6, 6), or (3, 3) for surge, sway and yaw, expected, {shape} found.")
     full = vector(matrix, shape, what)
@@ -117,7 +131,7 @@ def diagonal(value: ArrayLike, index: int, what: str) -> float:
     >>> diagonal(np.diag([1.0, 2, 3, 4, 5, 6]), 5, "added_mass")
     6.0
     """
-    if np.ndim(value) == 0:
+    if not shape_of(value, what):
         return not_negative(value, what, "SI")  # type: ignore[arg-type]
     return not_negative(vector(value, (6, 6), what)[index, index], what, "SI")
 

@@ -8,7 +8,7 @@ from numba import njit
 from numpy.typing import ArrayLike, NDArray
 
 from ogilvie.errors import InputError
-from ogilvie.loads.control.checks import limit, positive, vector
+from ogilvie.loads.control.checks import limit, positive, shape_of, vector
 
 Array = NDArray[Any]
 
@@ -86,7 +86,7 @@ class WaveFilter:
 
     def __post_init__(self) -> None:
         what = "WaveFilter: "
-        shape = np.shape(self.wave_frequency)
+        shape = shape_of(self.wave_frequency, _PEAK)
         peak = np.atleast_1d(vector(self.wave_frequency, shape, _PEAK))
         if len(shape) > 1 or not peak.size or not np.all(peak > 0.0):
             raise InputError(f"{what}wave_frequency: positive numbers (rad/s) expected, {self.wave_frequency!r} found.")
