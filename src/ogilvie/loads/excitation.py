@@ -1,8 +1,10 @@
 """First-order wave excitation: Froude-Krylov and diffraction force of each wave component."""
 
 import warnings
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -10,11 +12,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from ogilvie.errors import InputError, OgilvieWarning
 from ogilvie.hydro.schema import DOFS
-from ogilvie.loads.base import DIFFRACTION, FROUDE_KRYLOV, ComplexArray, Surroundings, Terms, embed
+from ogilvie.loads.base import DIFFRACTION, FROUDE_KRYLOV, ComplexArray, Surroundings, Terms
 from ogilvie.loads.encounter import encounter_kernel
-from ogilvie.loads.interpolation import Headings, evaluate, evaluate_turning, reachable, symmetric_headings
+from ogilvie.loads.interpolation import reachable
 from ogilvie.loads.kernel import Kernel
+from ogilvie.loads.speed_table import HeadingTable, SpeedTable, has_rule
 from ogilvie.waves.field import Sea
+
+Array = NDArray[Any]
 
 #: Largest share of the sea's variance that may lie outside the frequencies of the coefficients (left out with a warning).
 NEGLIGIBLE = 1e-3
@@ -23,12 +28,12 @@ _TURNS_LEAST = np.radians(2.0)  # range of headings below which large motions ma
 
 @dataclass(frozen=True, eq=False, init=False)
 class WaveExcitation:
-    """Force of the waves on the body held in its mean position, linear in the wave amplitude.
+    """Force of the waves on the body, linear in the wave amplitude.
 
     Parameters
     ----------
-    hydro : xarray.Dataset
-        Hydrodynamic data set with ``excitation_force``.
+    hydro : xarray.Dataset or sequence of them
+        Hydrodynamic data set with ``excitation_force``; or several of one vessel at different speeds.
     position : {"instantaneous", "mean"}
         Where the waves are met in large motions: where the vessel is, at the heading it has; or in the frame that advances
         steadily, as small motions assume.
@@ -36,13 +41,17 @@ class WaveExcitation:
     Raises
     ------
     InputError
-        The data set holds no wave forces.
+        The data set holds no wave forces; several sets that do not belong together.
 
     Notes
     -----
-    F(t) = Re sum_j X(w_j, b_j) a_j exp(i (w_e t + phase)_j) with b_j the direction relative to the bow and the signed encounter
-    frequency w_e = w - k U cos(b). X is interpolated as a complex number: cubic splines in frequency and in heading, periodic
-    in heading where the data go all around. Data of a port-starboard symmetric hull that cover one side serve both.
+    F(t) = Re sum_j X(w_j, b_j, U) a_j exp(i (w_e t + phase)_j) with b_j the direction relative to the bow and the signed
+    encounter frequency w_e = w - k U cos(b). X is interpolated as a complex number: cubic splines in frequency and in heading,
+    periodic in heading where the data go all around. Data of a port-starboard symmetric hull that cover one side serve both.
+
+    X at the vessel's speed comes from the data sets at several speeds, or from one at zero speed with ``Froude_Krylov_force``
+    or ``diffraction_force`` by the rule of :func:`ogilvie.at_speed`. Where neither is possible it is taken as it is, with a
+    warning.
 
     References
     ----------
@@ -59,37 +68,36 @@ class WaveExcitation:
     """
 
     hydro: xr.Dataset
-    _headings: Headings = field(repr=False)
-    _table: ComplexArray = field(repr=False)
+    _table: HeadingTable = field(repr=False)
+    _speeds: SpeedTable | None = field(repr=False)
     position: str = "instantaneous"
     name: str = "excitation"
 
-    def __init__(self, hydro: xr.Dataset, *, position: str = "instantaneous") -> None:
+    def __init__(self, hydro: xr.Dataset | Sequence[xr.Dataset], *, position: str = "instantaneous") -> None:
         if position not in ("instantaneous", "mean"):
             raise InputError(f"WaveExcitation: position 'instantaneous' or 'mean' expected, {position!r} found.")
-        if not isinstance(hydro, xr.Dataset):
-            raise InputError(
-                f"WaveExcitation: a hydrodynamic data set (xarray.Dataset) expected, {type(hydro).__name__} found."
-            )
-        if "excitation_force" not in hydro:
-            raise InputError(
-                "WaveExcitation: excitation_force expected in the data set, not found. Read or solve for wave forces."
-            )
-        dofs = tuple(str(d) for d in hydro.influenced_dof.values)
-        table = embed(hydro.excitation_force.values, dofs, (2,)).astype(complex)  # (n_w, n_b, 6)
-        headings, table = symmetric_headings(hydro, table)
-        object.__setattr__(self, "hydro", hydro)
+        sets = [hydro] if isinstance(hydro, xr.Dataset) or not isinstance(hydro, Sequence) else list(hydro)
+        for one in sets:
+            if not isinstance(one, xr.Dataset):
+                raise InputError(
+                    f"WaveExcitation: hydrodynamic data sets (xarray.Dataset) expected, {type(one).__name__} found."
+                )
+            if "excitation_force" not in one:
+                raise InputError(
+                    "WaveExcitation: excitation_force expected in the data set, not found. Read or solve for wave forces."
+                )
+        object.__setattr__(self, "hydro", sets[0])
         object.__setattr__(self, "position", position)
         object.__setattr__(self, "name", "excitation")
-        object.__setattr__(self, "_headings", headings)
-        object.__setattr__(self, "_table", table)
+        object.__setattr__(self, "_table", HeadingTable.of(sets[0]))
+        object.__setattr__(self, "_speeds", SpeedTable(sets) if len(sets) > 1 or has_rule(sets[0]) else None)
 
     @property
     def covers(self) -> frozenset[str]:
         """Effects that this load accounts for."""
         return frozenset({FROUDE_KRYLOV, DIFFRACTION})
 
-    def force(self, omega: ArrayLike, direction: ArrayLike) -> ComplexArray:
+    def force(self, omega: ArrayLike, direction: ArrayLike, speed: float | None = None) -> ComplexArray:
         """Return the complex force (n, 6) per metre of wave amplitude.
 
         Parameters
@@ -98,11 +106,13 @@ class WaveExcitation:
             Frequency of the incident waves, rad/s, within the data.
         direction : (n,) array
             Direction that the waves travel to, relative to the bow, rad.
+        speed : float, optional
+            m/s; that of the (first) data set by default.
 
         Raises
         ------
         InputError
-            Frequency or heading outside the data.
+            Frequency, heading or speed outside the data.
         """
         w, b = np.broadcast_arrays(np.atleast_1d(np.asarray(omega, dtype=float)), np.asarray(direction, dtype=float))
         lo, hi = self._range
@@ -110,33 +120,48 @@ class WaveExcitation:
             raise InputError(
                 f"WaveExcitation: frequencies within {lo:.4g}..{hi:.4g} rad/s expected, {w.min():.4g}..{w.max():.4g} found."
             )
-        return evaluate(self.hydro.omega.values, self._headings, self._table, np.clip(w, lo, hi), b)
+        w, U = np.clip(w, lo, hi), self._own_speed if speed is None else speed
+        if self._speeds is None or (speed is None and self._own_speed == U):
+            return self._table.at(w, b)
+        return self._speeds.force(w, b, U)
 
     def bind(self, surroundings: Surroundings) -> Terms:
         """Return the arrays for the time loop."""
-        at, own = surroundings.speed, float(self.hydro.attrs.get("speed", 0.0))
-        if abs(at - own) > 1e-6 * max(1.0, abs(at)):
+        at, own = surroundings.speed, self._own_speed
+        if self._speeds is None and abs(at - own) > 1e-6 * max(1.0, abs(at)):
             warnings.warn(
                 f"WaveExcitation: the coefficients hold for {own:.4g} m/s, the vessel sails at {at:.4g} m/s; "
-                "their dependence on speed is left out. Give coefficients for the vessel's speed: at_speed(hydro, speed).",
+                "their dependence on speed is left out. Give coefficients for the vessel's speed: at_speed(hydro, speed), or "
+                "zero-speed ones with Froude_Krylov_force.",
                 OgilvieWarning,
                 stacklevel=2,
             )
+        speed = at if self._speeds is not None else None
         encounter = partial(_encounter, self, surroundings) if self.position == "instantaneous" else None
-        return Terms(wave=partial(_force_in_sea, self), encounter=encounter)
+        return Terms(wave=partial(_force_in_sea, self, speed), encounter=encounter)
+
+    def _turning(self, omega: Array, direction: Array, speed: float) -> ComplexArray:
+        """Return the forces (n_h, n, 6) at frequencies (n,) and directions (n_h, n)."""
+        return self._table.turning(omega, direction) if self._speeds is None else self._speeds.turning(omega, direction, speed)
+
+    @property
+    def _own_speed(self) -> float:
+        return float(self.hydro.attrs.get("speed", 0.0))
 
     @property
     def _range(self) -> tuple[float, float]:
+        if self._speeds is not None:
+            return self._speeds.omega_range
         w = self.hydro.omega.values
         return float(w[0]), float(w[-1])
 
 
-def _force_in_sea(load: WaveExcitation, sea: Sea, heading: float) -> ComplexArray:
+def _force_in_sea(load: WaveExcitation, speed: float | None, sea: Sea, heading: float) -> ComplexArray:
     """Return the force of all components; those outside the data must hold a negligible share of the variance."""
     _compare_depth(load, sea)
     inside = _covered(load, sea)
     force = np.zeros((len(sea.omega), len(DOFS)), dtype=complex)
-    force[inside] = load.force(sea.omega[inside], sea.direction[inside] - heading)
+    force[inside] = load.force(sea.omega[inside], sea.direction[inside] - heading, speed)
     return force
 
 
@@ -154,7 +179,7 @@ def _encounter(load: WaveExcitation, surroundings: Surroundings, sea: Sea, ramp:
     """Return the compiled force of the sea where the vessel is."""
     inside = _covered(load, sea)
     w, direction = sea.omega[inside], sea.direction[inside]
-    limits = reachable(load._headings, direction, surroundings.heading)
+    limits = reachable(load._table.headings, direction, surroundings.heading)
     if limits is not None and limits[1] - limits[0] < _TURNS_LEAST:
         raise InputError(
             f"WaveExcitation: large motions need data for the headings that the vessel takes; for this sea they hold from "
@@ -164,9 +189,23 @@ def _encounter(load: WaveExcitation, surroundings: Surroundings, sea: Sea, ramp:
     part = replace(sea, omega=w, direction=direction, amplitude=sea.amplitude[..., inside], phase=sea.phase[..., inside])
 
     def force(headings: ComplexArray, speed: float) -> ComplexArray:
-        return evaluate_turning(load.hydro.omega.values, load._headings, load._table, w, direction - headings[:, None])
+        return load._turning(w, direction - headings[:, None], speed)
 
-    return encounter_kernel(force, part, ramp=ramp, speeds=np.array([surroundings.speed]), headings=limits)
+    speeds = _speeds_met(load, surroundings.speed)
+    return encounter_kernel(force, part, ramp=ramp, speeds=speeds, headings=limits)
+
+
+def _speeds_met(load: WaveExcitation, speed: float) -> Array:
+    """Return the speeds (n,) of the table: up to half as fast again as the vessel's own, in quarters of it."""
+    if load._speeds is None or speed == 0.0:
+        return np.array([speed])
+    lo, hi = load._speeds.speed_range
+    if not lo <= speed <= hi:
+        raise InputError(
+            f"WaveExcitation: a vessel's speed within the data ({lo:.4g}..{hi:.4g} m/s) expected, {speed:.4g} m/s found."
+        )
+    grid = speed * np.arange(-1, 7) / 4.0
+    return grid[(grid >= lo - 1e-9) & (grid <= hi + 1e-9)]
 
 
 def _compare_depth(load: WaveExcitation, sea: Sea) -> None:

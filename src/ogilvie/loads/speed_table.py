@@ -12,7 +12,7 @@ from ogilvie.errors import InputError
 from ogilvie.hydro.schema import DOFS
 from ogilvie.hydro.speed_terms import FluidMomentum, diffraction_at_speed, speed_matrix
 from ogilvie.loads.base import ComplexArray, embed
-from ogilvie.loads.interpolation import Headings, evaluate, symmetric_headings
+from ogilvie.loads.interpolation import Headings, evaluate, evaluate_turning, symmetric_headings
 from ogilvie.waves.dispersion import encounter_frequency
 
 Array = NDArray[np.float64]
@@ -23,7 +23,7 @@ _ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class _Table:
+class HeadingTable:
     """Forces (n_w, n_b, 6) of one data set over frequency and heading."""
 
     omega: Array
@@ -34,13 +34,25 @@ class _Table:
         """Return the forces (n, 6); frequencies are those of the data at most."""
         return evaluate(self.omega, self.headings, self.values, np.clip(omega, self.omega[0], self.omega[-1]), direction)
 
+    def turning(self, omega: Array, direction: Array) -> ComplexArray:
+        """Return the forces (n_h, n, 6) at frequencies (n,) and directions (n_h, n)."""
+        w = np.clip(omega, self.omega[0], self.omega[-1])
+        return evaluate_turning(self.omega, self.headings, self.values, w, direction)
+
+    @classmethod
+    def of(cls, hydro: xr.Dataset, key: str = "excitation_force") -> "HeadingTable":
+        """Return the table of a variable of a data set, mirrored where the hull is symmetric."""
+        dofs = tuple(str(d) for d in hydro.influenced_dof.values)
+        headings, values = symmetric_headings(hydro, embed(hydro[key].values, dofs, (2,)).astype(complex))
+        return cls(hydro.omega.values, headings, values)
+
 
 @dataclass(frozen=True, eq=False)
 class _Rule:
     """Forces of one data set at zero speed, carried to any speed."""
 
-    total: _Table
-    incident: _Table
+    total: HeadingTable
+    incident: HeadingTable
     fluid: FluidMomentum
     water_depth: float
     g: float
@@ -48,9 +60,18 @@ class _Rule:
     def at(self, omega: Array, direction: Array, speed: Array) -> ComplexArray:
         """Return the forces (n, 6) at speeds (n,)."""
         incident = self.incident.at(omega, direction)
-        scattered = self.total.at(omega, direction) - incident
+        return self._moved(incident, self.total.at(omega, direction) - incident, omega, direction, speed)
+
+    def turning(self, omega: Array, direction: Array, speed: float) -> ComplexArray:
+        """Return the forces (n_h, n, 6) at frequencies (n,) and directions (n_h, n)."""
+        incident = self.incident.turning(omega, direction)
+        return self._moved(incident, self.total.turning(omega, direction) - incident, omega, direction, np.array(speed))
+
+    def _moved(
+        self, incident: ComplexArray, scattered: ComplexArray, omega: Array, direction: Array, speed: Array
+    ) -> ComplexArray:
         encounter = encounter_frequency(omega, speed=speed, direction=direction, depth=self.water_depth, g=self.g)
-        T, T_encounter = self.fluid.at(omega), self.fluid.at(encounter)
+        T, T_encounter = self.fluid.at(omega), self.fluid.at(encounter)  # (n, 6, 6), (..., n, 6, 6)
         L = speed_matrix(DOFS)
         assert L is not None
         found = diffraction_at_speed(
@@ -98,7 +119,7 @@ class SpeedTable:
 
     interpolation: Interpolation
     _speeds: Array = field(repr=False)
-    _tables: tuple[_Table, ...] = field(repr=False)
+    _tables: tuple[HeadingTable, ...] = field(repr=False)
     _rule: _Rule | None = field(repr=False)
 
     def __init__(self, hydro: xr.Dataset | Sequence[xr.Dataset], *, interpolation: Interpolation = "cubic") -> None:
@@ -112,7 +133,7 @@ class SpeedTable:
             raise InputError(f"SpeedTable: different speeds expected, {', '.join(f'{u:.4g}' for u in speeds)} m/s found.")
         object.__setattr__(self, "interpolation", interpolation)
         object.__setattr__(self, "_speeds", speeds)
-        object.__setattr__(self, "_tables", tuple(_table(h, "excitation_force") for h in sets))
+        object.__setattr__(self, "_tables", tuple(HeadingTable.of(h) for h in sets))
         object.__setattr__(self, "_rule", _rule(sets[0]) if len(sets) == 1 and speeds[0] == 0.0 else None)
 
     @property
@@ -159,6 +180,20 @@ class SpeedTable:
             found += weights[:, n, None] * self._tables[n].at(w, b)
         return found
 
+    def turning(self, omega: Array, direction: Array, speed: float) -> ComplexArray:
+        """Return the complex forces (n_h, n, 6) at frequencies (n,) and directions (n_h, n) at one speed, as :meth:`force`."""
+        _refuse_outside("frequencies", "rad/s", omega, *self.omega_range)
+        _refuse_outside("speeds", "m/s", np.array([speed]), *self.speed_range)
+        if self._rule is not None:
+            return self._rule.turning(omega, direction, speed)
+        weights = self._weights(np.array([speed]))[0]
+        return np.sum([w * self._tables[n].turning(omega, direction) for n, w in enumerate(weights) if w != 0.0], axis=0)
+
+    @property
+    def headings(self) -> Headings:
+        """Headings that the data hold."""
+        return self._tables[0].headings
+
     def _weights(self, speed: Array) -> Array:
         if len(self._speeds) == 1:
             return np.ones((len(speed), 1))
@@ -187,10 +222,11 @@ def _check_sets(sets: list[xr.Dataset]) -> None:
             raise InputError(f"SpeedTable: {key}: one value in all data sets expected, {', '.join(map(str, values))} found.")
 
 
-def _table(hydro: xr.Dataset, key: str) -> _Table:
+def has_rule(hydro: xr.Dataset) -> bool:
+    """Return whether the forces of a data set can be carried to any speed: at zero speed, in two parts, heave with pitch."""
+    parts = "Froude_Krylov_force" in hydro or "diffraction_force" in hydro
     dofs = tuple(str(d) for d in hydro.influenced_dof.values)
-    headings, values = symmetric_headings(hydro, embed(hydro[key].values, dofs, (2,)).astype(complex))
-    return _Table(hydro.omega.values, headings, values)
+    return parts and _speed_of(hydro) == 0.0 and "added_mass" in hydro and speed_matrix(dofs) is not None
 
 
 def _rule(hydro: xr.Dataset) -> _Rule | None:
@@ -210,7 +246,7 @@ def _rule(hydro: xr.Dataset) -> _Rule | None:
     A_inf = embed(hydro.added_mass_inf.values, dofs, (0, 1)) if "added_mass_inf" in hydro else None
     fluid = FluidMomentum(omega, embed(T, dofs, (1, 2)), A_inf)
     water = {"water_depth": float(hydro.attrs["water_depth"]), "g": float(hydro.attrs["g"])}
-    return _Rule(_table(hydro, "excitation_force"), _table(hydro, "Froude_Krylov_force"), fluid, **water)
+    return _Rule(HeadingTable.of(hydro), HeadingTable.of(hydro, "Froude_Krylov_force"), fluid, **water)
 
 
 def _refuse_outside(what: str, unit: str, found: Array, lo: float, hi: float) -> None:
