@@ -135,7 +135,7 @@ def test_result_tells_its_figures():
     assert curve.spline(curve.vanishing_angle) == pytest.approx(0.0, abs=1e-9)
     assert curve.max_gz >= curve.gz.max()
     assert np.isnan(curve.spline(100 * deg))
-    assert "GM 0.7778 m" in str(curve)
+    assert "GM 0.77778 m" in str(curve)
 
 
 def test_refusals():
