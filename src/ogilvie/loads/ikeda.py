@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from ogilvie.errors import InputError
@@ -205,8 +206,8 @@ class IkedaHull:
         speed : (...) array
             m/s.
         wave : (...) array
-            Wave damping about the roll axis at zero speed and these frequencies, N m s, e.g. of a hydrodynamic data set; it is
-            changed for the speed by :func:`wave_speed_factor`.
+            Wave damping about the roll axis at zero speed and these frequencies, N m s, e.g. by :func:`wave_roll_damping`; it
+            is changed for the speed by :func:`wave_speed_factor`.
 
         Raises
         ------
@@ -218,8 +219,8 @@ class IkedaHull:
         Friction, with S = L (1.7 d + cb B), r = ((0.887 + 0.145 cb) S / L - 2 OG) / pi, Rn = 0.512 (r phi_a)^2 omega / nu:
         B_F = (4 / 3 pi) rho S r^3 phi_a omega (1.328 Rn^-1/2 + 0.014 Rn^-0.114) (1 + 4.1 U / (omega L)).
 
-        Eddies, with C_R of :func:`eddy_coefficient` and k = 0.04 omega L / U: B_E = (4 / 3 pi) rho omega phi_a int d^4 C_R dx k^2
-        / (1 + k^2).
+        Eddies, with C_R of :func:`eddy_coefficient` and k = 0.04 omega L / U:
+        B_E = (4 / 3 pi) rho omega phi_a int d^4 C_R dx k^2 / (1 + k^2).
 
         Lift, with l0 = 0.3 d, lR = 0.5 d, kN = 2 pi d / L + K (4.1 B / L - 0.045), K = 106 (cm - 0.91)^2 - 700 (cm - 0.91)^3 (0
         for cm < 0.91): B_L = 1/2 rho U L d kN l0 lR (1 - 1.4 OG / lR + 0.7 OG^2 / (l0 lR)).
@@ -286,8 +287,8 @@ def wave_speed_factor(omega: ArrayLike, *, speed: ArrayLike, draught: float, g: 
     Notes
     -----
     ((A2 + 1) + (A2 - 1) tanh(20 (tau - 0.3)) + (2 A1 - A2 - 1) exp(-150 (tau - 0.25)^2)) / 2 with tau = omega U / g, A1 = 1 +
-    k^-1.2 exp(-2 k), A2 = 0.5 + k^-1 exp(-2 k), k = omega^2 d / g. It is 1 at rest. Taken from experiments with k of about 0.3
-    to 1; at small k it is far too large.
+    k^-1.2 exp(-2 k), A2 = 0.5 + k^-1 exp(-2 k), k = omega^2 d / g. It is 1 at rest. A1 and A2 grow
+    without limit as k falls: long waves are outside its range.
 
     References
     ----------
@@ -303,6 +304,51 @@ def wave_speed_factor(omega: ArrayLike, *, speed: ArrayLike, draught: float, g: 
     A1, A2 = 1.0 + k**-1.2 * np.exp(-2.0 * k), 0.5 + np.exp(-2.0 * k) / k
     hump = (2.0 * A1 - A2 - 1.0) * np.exp(-150.0 * (tau - 0.25) ** 2)
     return 0.5 * (A2 + 1.0 + (A2 - 1.0) * np.tanh(20.0 * (tau - 0.3)) + hump)
+
+
+def wave_roll_damping(hydro: xr.Dataset, omega: ArrayLike, *, cog: ArrayLike) -> Array:
+    """Return the radiation damping of roll about the axis through the centre of gravity, N m s.
+
+    Parameters
+    ----------
+    hydro : xarray.Dataset
+        Hydrodynamic data with sway and roll, about O, at zero speed.
+    omega : (...) array
+        rad/s, within the data; linear in between.
+    cog : (3,) array
+        m.
+
+    Raises
+    ------
+    InputError
+        Roll or sway missing, frequencies outside the data.
+
+    Notes
+    -----
+    Roll about an axis at the height z_G moves O sideways by z_G p: B44_G = B44 + z_G (B24 + B42) + z_G^2 B22.
+
+    Examples
+    --------
+    >>> from ogilvie.hydro.schema import hydro_from_arrays
+    >>> B = np.broadcast_to([[2.0, 3.0], [3.0, 9.0]], (3, 2, 2))
+    >>> data = hydro_from_arrays(omega=[0.5, 1.0, 1.5], added_mass=0 * B, radiation_damping=B, dofs=("sway", "roll"))
+    >>> float(wave_roll_damping(data, 0.7, cog=[0.0, 0.0, -1.0]))  # 9 - 2 3 + 2
+    5.0
+    """
+    from ogilvie.loads.base import embed
+
+    center, w = column(cog, "wave_roll_damping: cog (m)", n=3), np.asarray(omega, dtype=float)
+    dofs = tuple(str(d) for d in hydro.influenced_dof.values)  # the radiating ones are the same, maybe in another order
+    missing = {"sway", "roll"} - (set(dofs) & {str(d) for d in hydro.radiating_dof.values})
+    if missing:
+        raise InputError(f"wave_roll_damping: sway and roll in the data expected, {', '.join(sorted(missing))} not found.")
+    known = hydro.omega.values.astype(float)
+    if not np.all((w >= known.min()) & (w <= known.max())):
+        raise InputError(f"wave_roll_damping: frequencies from {known.min():.4g} to {known.max():.4g} rad/s expected.")
+    damping = hydro.radiation_damping.sel(radiating_dof=list(dofs)).transpose("omega", "influenced_dof", "radiating_dof")
+    B = embed(damping.values, dofs, (1, 2))
+    z = center[2]
+    return np.asarray(np.interp(w, known, B[:, 3, 3] + z * (B[:, 1, 3] + B[:, 3, 1]) + z**2 * B[:, 1, 1]))
 
 
 def _keels(keels: tuple[float, float, float], sections: Array) -> tuple[float, float, float]:
