@@ -7,10 +7,11 @@ import pytest
 
 import ogilvie as og
 from ogilvie.loads.base import RADIATION, Load, Surroundings, viscous_effect
-from ogilvie.loads.ikeda import IkedaHull, wave_roll_damping, wave_speed_factor
+from ogilvie.loads.ikeda import IkedaHull
 from ogilvie.loads.ikeda_damping import IkedaRollDamping
 from ogilvie.loads.ikeda_eddy import bilge_radius, eddy_coefficient, lewis_coefficients
 from ogilvie.loads.ikeda_keels import keel_damping, levers
+from ogilvie.loads.ikeda_wave import wave_roll_damping, wave_speed_factor
 from ogilvie.loads.viscous import quadratic_effect
 
 BODY = og.RigidBody(mass=1.0, cog=[0, 0, 0], inertia=np.eye(3))

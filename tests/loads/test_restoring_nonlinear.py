@@ -87,6 +87,7 @@ class TestGZ:
         C = np.zeros((6, 6))
         C[2:5, 2:5] = [[6e6, 3e5, 4e6], [3e5, BODY.mass * GRAVITY * 0.7, 2e6], [4e6, 2e6, 2e9]]
         load = self.load(0.7 * PHI, C)
+        assert load.stiffness == pytest.approx(C)
         for eta in np.random.default_rng(2).uniform(-0.6, 0.6, (20, 6)):
             assert force(load, eta) == pytest.approx(linear(C, eta), rel=1e-9)
 
@@ -161,6 +162,7 @@ class TestHull:
     def test_linear_limit(self, ship):
         hull, body, C = ship
         load = HullRestoring(hull, body, heave=0.8, roll=6 * deg, pitch=0.6 * deg, points=(17, 25, 17))
+        assert load.stiffness == pytest.approx(C)
         direction = np.array([0, 0, 0.5, 0.06, 0.005, 0.3])
         scale = np.abs(linear(C, direction))
         errors = []

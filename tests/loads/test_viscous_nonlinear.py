@@ -91,9 +91,15 @@ def test_roll_damping_out_of_a_decay_gives_the_decay_back():
 
     run = solve_ivp(rate, (0, 100), [0.3, 0.0], t_eval=np.linspace(0, 100, 1001), rtol=1e-9, atol=1e-10)
     found = og.decay(run.t, run.y[0], dof="roll", model="linear+quadratic", inertia=I)
-    again = RollDamping(linear=found.linear.value, quadratic=found.quadratic.value)
+    again = RollDamping.from_decay(found)
     assert again.linear == pytest.approx(b1 * I, rel=1e-3)
     assert again.quadratic == pytest.approx(b2 * I, rel=1e-3)
+    less = RollDamping.from_decay(found, wave=0.3 * b1 * I)
+    assert less.linear == pytest.approx(0.7 * b1 * I, rel=1e-3)
+    with pytest.raises(og.InputError, match="wave damping"):
+        RollDamping.from_decay(found, wave=2 * b1 * I)
+    with pytest.raises(og.InputError, match="inertia"):
+        RollDamping.from_decay(og.decay(run.t, run.y[0], dof="roll", model="linear+quadratic"))
 
 
 class TestCrossFlow:

@@ -66,7 +66,8 @@ class GZRestoring:
     -----
     Q_z = -C33 z - C34 phi - C35 theta, Q_phi = -C43 z - m g GZ(phi) - C45 theta, Q_theta = -C53 z - C54 phi - C55 theta, with
     z, phi, theta of the pose, mapped to the body axes by J^T; GZ is a cubic spline. These forces have a potential where the
-    stiffness is symmetric. Beyond the last angle the force is NaN and a run stops: the curve says nothing about that heel.
+    stiffness is symmetric. The attribute `stiffness` (6, 6) is their linear limit, with m g GZ'(0) in roll. Beyond the last
+    angle the force is NaN and a run stops: the curve says nothing about that heel.
 
     Examples
     --------
@@ -77,6 +78,7 @@ class GZRestoring:
     """
 
     data: Array
+    stiffness: Array
     name: str = "restoring"
 
     def __init__(
@@ -101,8 +103,12 @@ class GZRestoring:
         weight = number(displacement, "GZRestoring: displacement (kg)", above=0.0) * number(g, "GZRestoring: g", above=0.0)
         spline = CubicSpline(phi, lever)
         data = np.concatenate([C.ravel(), [weight, len(phi) - 1], spline.x, spline.c.T.ravel()])
-        data.setflags(write=False)
-        object.__setattr__(self, "data", data)
+        tangent = np.zeros((6, 6))
+        tangent[2:5, 2:5] = C
+        tangent[3, 3] = weight * float(spline(0.0, 1))
+        for key, value in (("data", data), ("stiffness", tangent)):
+            value.setflags(write=False)
+            object.__setattr__(self, key, value)
         object.__setattr__(self, "name", "restoring")
 
     @classmethod

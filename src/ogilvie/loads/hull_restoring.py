@@ -15,7 +15,7 @@ from ogilvie.loads.pose import add_generalised
 from ogilvie.loads.tricubic import coefficients, evaluate
 from ogilvie.mesh.buoyancy import corners, energy_gradient, potential_energy
 from ogilvie.mesh.deck import decked
-from ogilvie.mesh.hydrostatics import Weight
+from ogilvie.mesh.hydrostatics import Weight, hydrostatics
 from ogilvie.mesh.panels import PanelMesh
 from ogilvie.units import GRAVITY, SEA_WATER, deg
 
@@ -76,8 +76,8 @@ class HullRestoring:
     -----
     E(z, phi, theta) = m g z_G - rho g V z_b, exact for the panels, at the points of a uniform grid and between them by a
     tricubic spline; generalised forces -dE/dz, -dE/dphi, -dE/dtheta, mapped to the body axes by J^T. So the work around any
-    closed path is zero by construction, and the linear limit is ``hydrostatics(hull.immersed(), body=body).stiffness``. A
-    linear term makes the force at eta = 0 that of the panels (zero for a body that floats there). Errors of the force fall
+    closed path is zero by construction. The attribute `stiffness` (6, 6) is the linear limit, `rest` (3,) the force at eta = 0.
+    A linear term makes the force at eta = 0 that of the panels (zero for a body that floats there). Errors of the force fall
     with the third power of the steps, slower where the deck or the bilge passes the water. Outside the table the force is NaN
     and a run stops.
 
@@ -100,6 +100,7 @@ class HullRestoring:
 
     data: Array
     rest: Array
+    stiffness: Array
     name: str = "restoring"
 
     def __init__(
@@ -133,7 +134,8 @@ class HullRestoring:
         rest = weight * energy_gradient(p, mass, cog, 0.0, 0.0, 0.0)
         found = np.array(evaluate(c, *(-first / step))[1:]) / step
         data = np.concatenate([c.shape, first, step, rest - found, c.ravel()])
-        for key, value in (("data", data), ("rest", -rest)):
+        tangent = hydrostatics(hull.immersed(), body=body, rho=density, g=weight / density).stiffness
+        for key, value in (("data", data), ("rest", -rest), ("stiffness", tangent)):
             value.setflags(write=False)
             object.__setattr__(self, key, value)
         object.__setattr__(self, "name", "restoring")

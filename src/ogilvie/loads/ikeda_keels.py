@@ -37,8 +37,9 @@ def keel_damping(
     B'_N = (8 / 3 pi) rho r^3 b omega phi_a f^2 C_D; B'_H = (4 / 3 pi) rho r^2 d^2 omega phi_a f^2 I,
 
     I = 1.2 B + (C_D - 1.2) A: the pressure coefficient is +1.2 in front of a keel, falling linearly along the girth to zero
-    at the end of the flat bottom (waterline), and 1.2 - C_D behind it over the length S0 = 0.3 pi f r phi_a + 1.95 b. A and
-    B are the levers of :func:`levers`.
+    at the centreline (waterline), and 1.2 - C_D behind it over the length S0 = 0.3 pi f r phi_a + 1.95 b. A and
+    B are the levers of :func:`levers`. f enters both squared, as the pressure of a velocity f r p; some programs have it once
+    in B'_N, which differs for sections with sigma > 0.98 alone.
 
     References
     ----------

@@ -1,7 +1,7 @@
 """Roll damping by coefficients: linear, quadratic and cubic in the roll velocity."""
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,6 +15,29 @@ from ogilvie.loads.viscous import quadratic_effect
 Array = NDArray[Any]
 
 ROLL = 3
+
+
+class Coefficient(Protocol):
+    """Anything with a value, such as an Estimate."""
+
+    @property
+    def value(self) -> float: ...
+
+
+class Decay(Protocol):
+    """Anything with the damping coefficients of a free decay in roll, such as a DecayAnalysis."""
+
+    @property
+    def linear(self) -> Coefficient: ...
+
+    @property
+    def quadratic(self) -> Coefficient: ...
+
+    @property
+    def cubic(self) -> Coefficient: ...
+
+    @property
+    def inertia(self) -> float | None: ...
 
 
 @load_kernel
@@ -46,9 +69,8 @@ class RollDamping:
 
     Notes
     -----
-    The coefficients of :func:`ogilvie.decay` (``found.linear.value`` and so on) hold all damping of the decay, that of the
-    radiated waves included. With a radiation load in the vessel take the wave part at the natural frequency off the linear
-    one: ``linear = found.linear.value - B44(omega_n)``.
+    The coefficients of a free decay hold all of its damping, that of the radiated waves included. With a radiation load in the
+    vessel the wave part at the natural frequency is to be taken off the linear one; :meth:`from_decay` does so.
 
     References
     ----------
@@ -88,6 +110,33 @@ class RollDamping:
             raise InputError("RollDamping: linear or ratio expected, both found.")
         if not (self.linear or self.quadratic or self.cubic or self.ratio):
             raise InputError("RollDamping: a coefficient > 0 expected (linear or ratio, quadratic, cubic), none found.")
+
+    @classmethod
+    def from_decay(cls, found: Decay, *, wave: float = 0.0) -> "RollDamping":
+        """Return the damping that a decay analysis found.
+
+        Parameters
+        ----------
+        found : DecayAnalysis
+            Of :func:`ogilvie.decay` with `inertia` or `stiffness` given, so that its coefficients are in SI.
+        wave : float
+            Radiation damping of roll at the natural frequency, N m s, taken off the linear coefficient for a vessel with a
+            radiation load.
+
+        Raises
+        ------
+        InputError
+            Coefficients per unit of inertia, a coefficient below zero, more wave damping than the linear coefficient.
+        """
+        if found.inertia is None:
+            raise InputError("RollDamping: a decay analysis with inertia (or stiffness) given expected, found one without.")
+        linear = found.linear.value - number(wave, "RollDamping: wave (N m s)", least=0.0)
+        if linear < 0.0:
+            raise InputError(
+                f"RollDamping: wave damping of at most the linear coefficient of the decay expected, {wave:.4g} with "
+                f"{found.linear.value:.4g} N m s found. Check the natural frequency of the radiation data."
+            )
+        return cls(linear=linear, quadratic=found.quadratic.value, cubic=found.cubic.value)
 
     @property
     def covers(self) -> frozenset[str]:
