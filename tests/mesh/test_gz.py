@@ -138,7 +138,25 @@ def test_result_tells_its_figures():
     assert "GM 0.77778 m" in str(curve)
 
 
+def test_decks_close_hulls_of_many_patches_and_bodies_of_many_parts():
+    for hull in (
+        SHIP,
+        og.shapes.s175(panels=600, above_water=True),
+        og.shapes.cylinder(5.0, 9.0, panels=200).translated((0, 0, 4.0)),
+    ):
+        closed = decked(hull)
+        assert np.abs(closed.area_vectors.sum(axis=0)).max() < 1e-9 * closed.areas.sum()
+        assert closed.volumes == pytest.approx(closed.volume)
+        assert closed.volume > hull.immersed().volume
+    once = decked(SHIP)
+    assert decked(once).n_faces == once.n_faces
+
+
 def test_refusals():
+    hull = barge().full()
+    holed = og.PanelMesh(hull.vertices, hull.faces[hull.centers[:, 2] > -T + 1e-6])  # no bottom
+    with pytest.raises(og.InputError, match=r"open edge at z = -3 m"):
+        gz_curve(holed, weight(0.0))
     with pytest.raises(og.InputError, match="freeboard"):
         gz_curve(og.shapes.box(L, B, T, panels=100), weight(0.0))
     with pytest.raises(og.InputError, match="ascending"):

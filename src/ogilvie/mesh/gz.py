@@ -166,7 +166,7 @@ def gz_curve(
     lever = np.array([problem.lever(float(a), b) for a, b in zip(phi, q, strict=True)])
     ends = [problem.lever(s * _NEAR, problem.balance(s * _NEAR, upright)) for s in (1.0, -1.0)]
     gm = (ends[0] - ends[1]) / (2.0 * _NEAR)
-    wet_at = _deck_angle(rim(hull)[0], phi, q)
+    wet_at = _deck_angle(rim(hull), phi, q)
     return GZCurve(hull.name, phi, lever, q[:, 0], q[:, 1], float(body.mass), gm, wet_at)
 
 
