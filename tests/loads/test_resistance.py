@@ -69,6 +69,17 @@ def test_table_of_a_cubic_is_exact():
     assert np.isnan(load.resistance(12.5))
 
 
+def test_table_of_both_directions():
+    u = np.linspace(-6.0, 12.0, 9)
+    load = SurgeResistance.from_table(u, 100 * u + 50 * u**2 + 3 * u**3, balanced_at=5.0)
+    v = np.array([-5.3, -0.1, 0.0, 5.1, 11.9])
+    assert load.resistance(v) == pytest.approx(100 * v + 50 * v**2 + 3 * v**3)
+    assert force(load, 5.0) == pytest.approx(0.0, abs=1e-9)
+    assert np.isnan(load.resistance([-6.5, 12.5])).all()
+    with pytest.raises(og.InputError, match="astern"):
+        SurgeResistance.from_table(u, u, astern=1.2)
+
+
 def test_thrust_holds_the_speed_and_brings_it_back():
     load = SurgeResistance(area=S, length=L, form_factor=0.15, balanced_at=8.0)
     assert load.thrust == pytest.approx(float(load.resistance(8.0)))

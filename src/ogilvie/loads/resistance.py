@@ -53,10 +53,12 @@ def resistance_force(x: Array, data: Array, own: Array, force: Array) -> None:
     """Resistance by formula with a table of further coefficients, plus air and thrust.
 
     Data: 1/2 rho S, length / viscosity, form factor, constant coefficient, Froude number per m/s, factor astern, air,
-    thrust, number of pieces n; n + 1 ends and 4 n coefficients of cubics, highest power first. No friction: a table R(u).
+    thrust, number of pieces n; n + 1 ends and 4 n coefficients of cubics, highest power first. 1/2 rho S of zero: a table R(u),
+    signed where it begins below zero.
     """
     u, n = x[NU_R], int(data[8])
-    speed = abs(u) * data[4]
+    signed = data[0] == 0.0 and data[9] < 0.0
+    speed = u if signed else abs(u) * data[4]
     C = 0.0
     if n > 0:
         C = np.nan
@@ -66,7 +68,7 @@ def resistance_force(x: Array, data: Array, own: Array, force: Array) -> None:
                 k += 1
             s, a = speed - data[9 + k], 10 + n + 4 * k
             C = ((data[a] * s + data[a + 1]) * s + data[a + 2]) * s + data[a + 3]
-        elif speed < data[9]:
+        elif speed < data[9] and not signed:
             C = data[10 + n + 3]
     if data[0] > 0.0:
         Rn = u * data[1]
@@ -74,7 +76,7 @@ def resistance_force(x: Array, data: Array, own: Array, force: Array) -> None:
         R = data[0] * ((1.0 + data[2]) * 0.075 / (line * line) + data[3] + C) * u * u
     else:
         R = C
-    R = -R if u > 0.0 else R * data[5]
+    R = -R if u > 0.0 or signed else R * data[5]
     force[0] += R + data[7] - data[6] * abs(x[NU]) * x[NU]
 
 
@@ -172,15 +174,15 @@ class SurgeResistance:
         Parameters
         ----------
         speed : (n,) array
-            Through the water, from 0 upward, n >= 4, m/s.
+            Through the water, ascending, n >= 4, from 0 upward or from below to above it, m/s.
         resistance : (n,) array
-            N, zero at rest.
+            N, positive ahead, negative astern; zero at rest where the table begins there.
         astern, balanced_at : float
-            As above.
+            As above; `astern` for tables from 0 upward.
 
         Notes
         -----
-        Cubic spline, odd in the speed: R(-u) = -astern R(u). Beyond the last speed the force is NaN and a run stops.
+        Cubic spline; from 0 upward it is continued by R(-u) = -astern R(u). Beyond the table the force is NaN and a run stops.
 
         Examples
         --------
@@ -189,9 +191,12 @@ class SurgeResistance:
         >>> round(float(ship.resistance(6.0))), round(float(ship.resistance(-6.0)))
         (90000, -90000)
         """
-        table = _pieces(speed, resistance, "table")
-        if table[0][0] != 0.0 or table[1][3, 0] != 0.0:
-            raise InputError("SurgeResistance: a table from zero speed and zero resistance on expected.")
+        table = _pieces(speed, resistance, "table", signed=True)
+        first, last = table[0][[0, -1]]
+        if first > 0.0 or last <= 0.0 or (first == 0.0 and table[1][3, 0] != 0.0):
+            raise InputError("SurgeResistance: a table from zero speed and zero resistance on, or of both signs, expected.")
+        if first < 0.0 and astern != 1.0:
+            raise InputError("SurgeResistance: a table of both signs holds the resistance astern; leave out astern.")
         load = object.__new__(cls)
         factor = number(astern, "SurgeResistance: astern", least=0.0)
         load._set([0.0, 0.0, 0.0, 0.0, 1.0], factor, 0.0, table, balanced_at)
@@ -228,13 +233,13 @@ class SurgeResistance:
         return Terms(kernel=Kernel(resistance_force, self.data.copy()))
 
 
-def _pieces(x: ArrayLike, y: ArrayLike, what: str) -> tuple[Array, Array]:
+def _pieces(x: ArrayLike, y: ArrayLike, what: str, *, signed: bool = False) -> tuple[Array, Array]:
     """Return the ends (n + 1,) and coefficients (4, n) of the cubics of a spline through a table."""
     from scipy.interpolate import CubicSpline
 
     at = ascending(x, f"SurgeResistance: {what}, first column", fewest=4)
     value = column(y, f"SurgeResistance: {what}, second column", n=len(at))
-    if at[0] < 0.0:
+    if at[0] < 0.0 and not signed:
         raise InputError(f"SurgeResistance: {what} at speeds >= 0 expected, {at[0]:g} found.")
     spline = CubicSpline(at, value)
     return spline.x, spline.c
