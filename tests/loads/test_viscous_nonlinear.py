@@ -6,7 +6,7 @@ import pytest
 import ogilvie as og
 from ogilvie.frames import shift_matrix
 from ogilvie.loads.base import Load, Surroundings, viscous_effect
-from ogilvie.loads.cross_flow import CrossFlowDrag
+from ogilvie.loads.cross_flow import CrossFlowDrag, section_drag_coefficient
 from ogilvie.loads.point_drag import PointDrag
 from ogilvie.loads.roll_damping import RollDamping
 from ogilvie.loads.viscous import QuadraticDamping, quadratic_effect
@@ -159,6 +159,16 @@ class TestCrossFlow:
         F = force(load, [0, 1.0, 1.0, 0, 0, 0])
         assert F[1] == pytest.approx(-0.5 * RHO * T * 100.0, rel=2e-3)
         assert F[2] == pytest.approx(-0.5 * RHO * B * 100.0 * 2 / 3, rel=5e-3)
+
+    def test_coefficients_of_the_sections(self):
+        hull = og.shapes.box(100.0, 20.0, 5.0, panels=300)  # B / 2 T = 2: between 0.657 and 0.631
+        by_curve = force(CrossFlowDrag.from_hull(hull), [0, 1.0, 0, 0, 0.0, 0])
+        assert 0.64 < -by_curve[1] / (0.5 * 1025.0 * 500.0) < 0.65
+        along = np.linspace(0.5, 1.5, 20)
+        given = force(CrossFlowDrag.from_hull(hull, cd=along, strips=20), [0, 1.0, 0, 0, 0.0, 0])
+        assert given[1] == pytest.approx(-0.5 * 1025.0 * 500.0, rel=1e-9)
+        assert given[5] < 0.0  # more drag forward
+        assert np.all(np.diff(section_drag_coefficient(np.linspace(0, 60, 99), 5.0)) <= 0.0)
 
     def test_refusals(self):
         with pytest.raises(og.InputError, match="ascending"):

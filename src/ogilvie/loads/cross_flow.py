@@ -17,7 +17,38 @@ from ogilvie.units import SEA_WATER
 
 Array = NDArray[Any]
 
+#: Half-breadth over draught, and drag coefficient on the draught, of ship sections.
+_CURVE = np.array(
+    [
+        *[(0.0, 1.966), (0.177, 1.966), (0.353, 1.898), (0.452, 1.787), (0.473, 1.584), (0.493, 1.279), (0.494, 1.211)],
+        *[(0.558, 1.084), (0.646, 0.999), (0.834, 0.880), (0.988, 0.828), (1.308, 0.760), (1.639, 0.691), (1.860, 0.657)],
+        *[(2.313, 0.631), (2.600, 0.596), (3.009, 0.587), (3.451, 0.586), (3.738, 0.560), (4.003, 0.559)],
+    ]
+)
 _GAUSS = 0.5 / np.sqrt(3.0)  # two points in an interval, about its middle, over its length
+
+
+def section_drag_coefficient(breadth: ArrayLike, draught: ArrayLike) -> Array:
+    """Return the cross-flow drag coefficient of sections on their draught, from their half-breadth over draught.
+
+    Notes
+    -----
+    Linear between points read off a curve, from 1.97 for thin sections to 0.56 at a ratio of 4 and held beyond. Sharp bilges,
+    bilge keels and scale change it by far more than the reading does.
+
+    References
+    ----------
+    Leite, Aranha, Umeda, de Conti (1998), Current forces in tankers and bifurcation of equilibrium of turret systems, Applied
+    Ocean Research 20, 145-156, after Hoerner; points as in the function Hoerner of the Marine Systems Simulator.
+
+    Examples
+    --------
+    >>> section_drag_coefficient([25.4, 40.0], [12.7, 5.0]).round(2)
+    array([0.83, 0.56])
+    """
+    B, T = np.asarray(breadth, dtype=float), np.asarray(draught, dtype=float)
+    ratio = 0.5 * B / np.where(T > 0.0, T, np.inf)
+    return np.interp(ratio, _CURVE[:, 0], _CURVE[:, 1])
 
 
 @load_kernel
@@ -125,7 +156,7 @@ class CrossFlowDrag:
         cls,
         hull: PanelMesh,
         *,
-        cd: ArrayLike,
+        cd: ArrayLike | None = None,
         cd_vertical: ArrayLike = 0.0,
         z: ArrayLike | None = None,
         rho: float = SEA_WATER,
@@ -137,8 +168,10 @@ class CrossFlowDrag:
         ----------
         hull : PanelMesh
             In the body's axes at rest.
-        cd, cd_vertical, z : float or (strips,) array
-            As above, at the middles of equal strips over the wetted length.
+        cd : float or (strips,) array, optional
+            At the middles of equal strips over the wetted length; by default :func:`section_drag_coefficient` of each.
+        cd_vertical, z : float or (strips,) array
+            As above, at the same places.
         rho : float
             kg/m3.
         strips : int
@@ -160,7 +193,7 @@ class CrossFlowDrag:
         return cls(
             x,
             ends(s.draught),
-            cd=ends(cd),
+            cd=ends(section_drag_coefficient(s.breadth, s.draught) if cd is None else cd),
             beam=ends(s.breadth),
             cd_vertical=ends(cd_vertical),
             z=None if z is None else ends(z),
