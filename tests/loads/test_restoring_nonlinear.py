@@ -7,7 +7,7 @@ import pytest
 
 import ogilvie as og
 from ogilvie.frames import euler_rate_matrix, rotation_matrix
-from ogilvie.loads.base import RESTORING, Load
+from ogilvie.loads.base import RESTORING, Load, Surroundings
 from ogilvie.loads.gz import GZRestoring
 from ogilvie.loads.hull_restoring import HullRestoring
 from ogilvie.loads.tricubic import coefficients, evaluate
@@ -29,8 +29,8 @@ def jacobian(eta):
     return J
 
 
-def force(load, eta):
-    return load.bind(None).kernel.force(eta=eta)
+def force(load, eta, body=BODY):
+    return load.bind(Surroundings(body)).kernel.force(eta=eta)
 
 
 def linear(C, eta):
@@ -167,7 +167,7 @@ class TestHull:
         scale = np.abs(linear(C, direction))
         errors = []
         for h in (1.0, 0.5, 0.25):
-            F = force(load, h * direction)
+            F = force(load, h * direction, body)
             errors.append(np.abs((F - linear(C, h * direction))[2:5] / scale[2:5]))
         assert errors[-1].max() < 0.02
         slope = np.log2(np.array(errors[:-1]) / errors[1:])
@@ -187,12 +187,12 @@ class TestHull:
             moment = np.cross(arm_b, [0, 0, up]) - np.cross(arm_g, [0, 0, body.mass * GRAVITY])
             exact = np.r_[R.T @ [0, 0, up - body.mass * GRAVITY], R.T @ moment]
             scale = body.mass * GRAVITY * np.array([1, 1, 1, 1.0, 175.0, 175.0])
-            errors.append(np.abs(force(load, eta) - exact) / scale)
+            errors.append(np.abs(force(load, eta, body) - exact) / scale)
         assert np.max(errors) < 1e-3
         assert np.median(np.max(errors, axis=1)) < 2e-4
 
     def test_work_around_a_closed_path_is_zero_and_between_ends_the_energy(self, barge):
-        kernel = barge.bind(None).kernel
+        kernel = barge.bind(Surroundings(BODY)).kernel
 
         def work(path):
             total = 0.0
@@ -217,12 +217,12 @@ class TestHull:
         one, whole = HullRestoring(hull, body, **args), HullRestoring(hull.full(), body, **args)
         even = HullRestoring(hull, body, **{**args, "points": (7, 10, 7)})
         eta = np.array([0, 0, 0.5, 0.2, 0.01, 0])
-        assert force(one, eta) == pytest.approx(force(whole, eta), rel=1e-7, abs=1e-3)
-        assert force(even, eta)[3] == pytest.approx(-force(even, eta * [1, 1, 1, -1, 1, 1])[3])
+        assert force(one, eta, body) == pytest.approx(force(whole, eta, body), rel=1e-7, abs=1e-3)
+        assert force(even, eta, body)[3] == pytest.approx(-force(even, eta * [1, 1, 1, -1, 1, 1], body)[3])
 
     def test_free_roll_keeps_its_energy(self, barge):
         """Heave, roll and pitch with inertia alone, by Runge-Kutta steps: kinetic and potential energy keep their sum."""
-        kernel, M = barge.bind(None).kernel, np.array([BODY.mass, BODY.mass * 16.0, BODY.mass * 225.0])
+        kernel, M = barge.bind(Surroundings(BODY)).kernel, np.array([BODY.mass, BODY.mass * 16.0, BODY.mass * 225.0])
         q, v = np.array([0.3, 0.5, 0.01]), np.zeros(3)
 
         def acceleration(q):
@@ -246,6 +246,11 @@ class TestHull:
         assert np.isfinite(force(barge, [0, 0, 1.5, 50 * deg, 0, 0])).all()
         for eta in ([0, 0, 1.6, 0, 0, 0], [0, 0, 0, -51 * deg, 0, 0], [0, 0, 0, 0, 3.1 * deg, 0]):
             assert np.isnan(force(barge, eta)).any()
+
+    def test_the_body_of_the_table_is_that_of_the_vessel(self, barge):
+        heavier = og.RigidBody(1.01 * BODY.mass, BODY.cog, BODY.inertia)
+        with pytest.raises(og.InputError, match="vessel's body"):
+            barge.bind(Surroundings(heavier))
 
     def test_refusals(self):
         with pytest.raises(og.InputError, match="freeboard"):

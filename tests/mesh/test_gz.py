@@ -136,6 +136,9 @@ def test_result_tells_its_figures():
     assert curve.max_gz >= curve.gz.max()
     assert np.isnan(curve.spline(100 * deg))
     assert "GM 0.77778 m" in str(curve)
+    other = gz_curve(barge(), weight(0.5), np.arange(-40.0, -9.0, 10.0) * deg)
+    assert np.isnan([other.max_angle, other.max_gz, other.vanishing_angle, other.area(0.1)]).all()
+    assert "nan" in str(other)
 
 
 def test_decks_close_hulls_of_many_patches_and_bodies_of_many_parts():

@@ -76,10 +76,10 @@ class HullRestoring:
     -----
     E(z, phi, theta) = m g z_G - rho g V z_b, exact for the panels, at the points of a uniform grid and between them by a
     tricubic spline; generalised forces -dE/dz, -dE/dphi, -dE/dtheta, mapped to the body axes by J^T. So the work around any
-    closed path is zero by construction. The attribute `stiffness` (6, 6) is the linear limit, `rest` (3,) the force at eta = 0.
-    A linear term makes the force at eta = 0 that of the panels (zero for a body that floats there). Errors of the force fall
-    with the third power of the steps, slower where the deck or the bilge passes the water. Outside the table the force is NaN
-    and a run stops.
+    closed path is zero by construction. A linear term makes the force at eta = 0 that of the panels (zero for a body that
+    floats there). Errors of the force fall with the third power of the steps, slower where the deck or the bilge passes the
+    water. Outside the table the force is NaN and a run stops. Attributes: `stiffness` (6, 6), the linear limit; `rest` (3,), the
+    generalised force at eta = 0; `weight` (4,), mass and centre of gravity.
 
     References
     ----------
@@ -88,12 +88,13 @@ class HullRestoring:
     Examples
     --------
     >>> from ogilvie.body import RigidBody
+    >>> from ogilvie.loads.base import Surroundings
     >>> from ogilvie.mesh.shapes import box
     >>> barge = box(60.0, 10.0, 8.0, panels=100).translated((0, 0, 5.0))  # draught 3 m
     >>> body = RigidBody.from_hull(barge.immersed(), zg=0.5, gyradii=(3.5, 15.0, 15.0))
     >>> load = HullRestoring(barge, body, roll=40 * deg, pitch=2 * deg, points=(9, 41, 9))
     >>> s, t = np.sin(20 * deg), np.tan(20 * deg)  # wall-sided: m g sin(phi) (GM + BM / 2 tan^2(phi))
-    >>> moment = load.bind(None).kernel.force(eta=[0, 0, 0, 20 * deg, 0, 0])[3]
+    >>> moment = load.bind(Surroundings(body)).kernel.force(eta=[0, 0, 0, 20 * deg, 0, 0])[3]
     >>> round(float(moment / (-body.mass * 9.80665 * s * (7 / 9 + 0.5 * 100 / 36 * t**2))), 4)
     1.0
     """
@@ -101,6 +102,7 @@ class HullRestoring:
     data: Array
     rest: Array
     stiffness: Array
+    weight: Array
     name: str = "restoring"
 
     def __init__(
@@ -135,7 +137,8 @@ class HullRestoring:
         found = np.array(evaluate(c, *(-first / step))[1:]) / step
         data = np.concatenate([c.shape, first, step, rest - found, c.ravel()])
         tangent = hydrostatics(hull.immersed(), body=body, rho=density, g=weight / density).stiffness
-        for key, value in (("data", data), ("rest", -rest), ("stiffness", tangent)):
+        body_weight = np.r_[float(body.mass), cog]
+        for key, value in (("data", data), ("rest", -rest), ("stiffness", tangent), ("weight", body_weight)):
             value.setflags(write=False)
             object.__setattr__(self, key, value)
         object.__setattr__(self, "name", "restoring")
@@ -146,7 +149,13 @@ class HullRestoring:
         return frozenset({RESTORING})
 
     def bind(self, surroundings: Surroundings) -> Terms:
-        """Return the compiled force for the time loop."""
+        """Return the compiled force for the time loop; the vessel's body has to be the one of the table."""
+        body = surroundings.body
+        if not np.allclose(np.r_[body.mass, body.cog], self.weight, rtol=1e-9, atol=1e-9):
+            raise InputError(
+                f"HullRestoring: the vessel's body expected ({body.mass:.6g} kg at {body.cog.tolist()}), "
+                f"{self.weight[0]:.6g} kg at {self.weight[1:].tolist()} found in the table. Make it with the vessel's body."
+            )
         return Terms(kernel=Kernel(hull_force, self.data.copy()))
 
     def energy(self, z: float, phi: float, theta: float) -> float:

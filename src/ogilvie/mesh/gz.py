@@ -63,10 +63,10 @@ class GZCurve:
 
     @property
     def max_angle(self) -> float:
-        """Positive heel of the largest lever, rad."""
+        """Positive heel of the largest lever, rad; NaN where the curve has no positive heel."""
         stationary = self.spline.derivative().roots(extrapolate=False)
         at = np.r_[stationary[stationary >= 0.0], self.angles[self.angles >= 0.0]]
-        return float(at[int(np.argmax(self.spline(at)))])
+        return float(at[int(np.argmax(self.spline(at)))]) if len(at) else float("nan")
 
     @property
     def max_gz(self) -> float:
