@@ -77,9 +77,10 @@ class HullRestoring:
     E(z, phi, theta) = m g z_G - rho g V z_b, exact for the panels, at the points of a uniform grid and between them by a
     tricubic spline; generalised forces -dE/dz, -dE/dphi, -dE/dtheta, mapped to the body axes by J^T. So the work around any
     closed path is zero by construction. A linear term makes the force at eta = 0 that of the panels (zero for a body that
-    floats there). Errors of the force fall with the third power of the steps, slower where the deck or the bilge passes the
-    water. Outside the table the force is NaN and a run stops. Attributes: `stiffness` (6, 6), the linear limit; `rest` (3,), the
-    generalised force at eta = 0; `weight` (4,), mass and centre of gravity.
+    floats there). Errors of the force fall with the third power of the steps, those of its slope with the second, slower where
+    the deck, the bilge or a knuckle passes the water. Outside the table the force is NaN and a run stops. Attributes:
+    `stiffness` (6, 6), the linear limit; `rest` (3,), the generalised force at eta = 0; `weight` (4,), mass and centre of
+    gravity.
 
     References
     ----------
