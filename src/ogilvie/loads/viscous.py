@@ -1,4 +1,4 @@
-"""Viscous damping, linear in the velocity."""
+"""Viscous damping, linear or quadratic in the velocity."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -10,8 +10,20 @@ from numpy.typing import ArrayLike, NDArray
 from ogilvie.errors import InputError
 from ogilvie.hydro.schema import DOFS
 from ogilvie.loads.base import Surroundings, Terms, matrix6, per_dof, viscous_effect
+from ogilvie.loads.kernel import NU_R, Kernel, load_kernel
 
 Array = NDArray[Any]
+
+
+def quadratic_effect(dof: str) -> str:
+    """Return the name of the effect "viscous damping beyond the linear" of one degree of freedom.
+
+    Examples
+    --------
+    >>> quadratic_effect("sway")
+    'nonlinear viscous damping of sway'
+    """
+    return f"nonlinear viscous damping of {dof}"
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -65,3 +77,59 @@ class LinearDamping:
     def bind(self, surroundings: Surroundings) -> Terms:
         """Return the arrays for the time loop."""
         return Terms(damping=self.matrix, damping_ratio=self.ratio)
+
+
+@load_kernel
+def _quadratic_force(x: Array, data: Array, own: Array, force: Array) -> None:
+    for j in range(6):
+        v = x[NU_R + j]
+        for i in range(6):
+            force[i] -= data[6 * i + j] * abs(v) * v
+
+
+@dataclass(frozen=True, eq=False, init=False)
+class QuadraticDamping:
+    """Force that grows with the square of the velocity through the water.
+
+    Parameters
+    ----------
+    coefficients : (6, 6) array or mapping of str to float
+        D2 about O, N s2/m2, N s2, N m s2; or its diagonal per degree of freedom, e.g. ``{"roll": 4e9, "sway": 2e5}``.
+
+    Raises
+    ------
+    InputError
+        Wrong shape, NaN, unknown degree of freedom, negative number on the diagonal (it would drive the motion).
+
+    Notes
+    -----
+    F_i = -sum_j D2_ij |nu_rj| nu_rj. It comes on top of :class:`LinearDamping` and covers another effect.
+
+    Examples
+    --------
+    >>> load = QuadraticDamping({"roll": 3.0})
+    >>> load.bind(None).kernel.force(nu=[0, 0, 0, -2.0, 0, 0])
+    array([ 0.,  0.,  0., 12.,  0.,  0.])
+    """
+
+    matrix: Array
+    name: str = "quadratic_damping"
+
+    def __init__(self, coefficients: ArrayLike | Mapping[str, float]) -> None:
+        if isinstance(coefficients, Mapping):
+            coefficients = np.diag(per_dof(coefficients, "QuadraticDamping"))
+        D = matrix6(coefficients, "QuadraticDamping: matrix")
+        if np.any(np.diag(D) < 0.0):
+            worst = int(np.diag(D).argmin())
+            raise InputError(f"QuadraticDamping: coefficients >= 0 expected, {D[worst, worst]:g} found for {DOFS[worst]}.")
+        object.__setattr__(self, "matrix", D)
+        object.__setattr__(self, "name", "quadratic_damping")
+
+    @property
+    def covers(self) -> frozenset[str]:
+        """Effects that this load accounts for: one per damped degree of freedom."""
+        return frozenset(quadratic_effect(d) for d, row in zip(DOFS, self.matrix, strict=True) if row.any())
+
+    def bind(self, surroundings: Surroundings) -> Terms:
+        """Return the compiled force for the time loop."""
+        return Terms(kernel=Kernel(_quadratic_force, self.matrix.flatten()))
