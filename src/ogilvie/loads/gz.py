@@ -79,6 +79,7 @@ class GZRestoring:
 
     data: Array
     stiffness: Array
+    limits: str
     name: str = "restoring"
 
     def __init__(
@@ -109,6 +110,7 @@ class GZRestoring:
         for key, value in (("data", data), ("stiffness", tangent)):
             value.setflags(write=False)
             object.__setattr__(self, key, value)
+        object.__setattr__(self, "limits", f"roll {np.degrees(phi[0]):.4g}..{np.degrees(phi[-1]):.4g} deg")
         object.__setattr__(self, "name", "restoring")
 
     @classmethod
@@ -129,4 +131,4 @@ class GZRestoring:
 
     def bind(self, surroundings: Surroundings) -> Terms:
         """Return the compiled force for the time loop."""
-        return Terms(kernel=Kernel(gz_force, self.data.copy()))
+        return Terms(kernel=Kernel(gz_force, self.data, limits=self.limits), small=Terms(stiffness=self.stiffness))

@@ -104,6 +104,7 @@ class HullRestoring:
     rest: Array
     stiffness: Array
     weight: Array
+    limits: str
     name: str = "restoring"
 
     def __init__(
@@ -142,6 +143,9 @@ class HullRestoring:
         for key, value in (("data", data), ("rest", -rest), ("stiffness", tangent), ("weight", body_weight)):
             value.setflags(write=False)
             object.__setattr__(self, key, value)
+        (z0, z1), roll_range, pitch_range = spans
+        degrees = [f"{a:.4g}..{b:.4g} deg" for a, b in np.degrees([roll_range, pitch_range])]
+        object.__setattr__(self, "limits", f"heave {z0:.4g}..{z1:.4g} m, roll {degrees[0]}, pitch {degrees[1]}")
         object.__setattr__(self, "name", "restoring")
 
     @property
@@ -157,7 +161,7 @@ class HullRestoring:
                 f"HullRestoring: the vessel's body expected ({body.mass:.6g} kg at {body.cog.tolist()}), "
                 f"{self.weight[0]:.6g} kg at {self.weight[1:].tolist()} found in the table. Make it with the vessel's body."
             )
-        return Terms(kernel=Kernel(hull_force, self.data.copy()))
+        return Terms(kernel=Kernel(hull_force, self.data, limits=self.limits), small=Terms(stiffness=self.stiffness))
 
     def energy(self, z: float, phi: float, theta: float) -> float:
         """Return the potential energy of a pose, J, up to a constant; NaN outside the table."""

@@ -112,4 +112,4 @@ class IkedaRollDamping:
         D = np.zeros((6, 6))
         D[ROLL, ROLL] = B1
         kernel = Kernel(roll_polynomial, np.array([B2, B3])) if B2 > 0.0 or B3 > 0.0 else None
-        return Terms(damping=D, kernel=kernel)
+        return Terms(damping=D, kernel=kernel, small=None if kernel is None else Terms(damping=D))

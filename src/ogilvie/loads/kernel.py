@@ -111,7 +111,7 @@ class Callback:
 
     function: Callable[[float, Array, Array], Array]
     period: float
-    begin: Callable[[float, Array, Array], None] | None = None
+    begin: Callable[[float, Array, Array], Any] | None = None
     alone: bool = False
 
     def held(self) -> Sampled:
@@ -144,7 +144,7 @@ def situation(t: float = 0.0, eta: Any = None, nu: Any = None, nu_r: Any = None)
 
 
 def _flat(value: Any, ndim: int) -> Array:
-    array = np.ascontiguousarray(value, dtype=float)
+    array = np.array(value, dtype=float, order="C")  # a copy: kernels take no read-only arrays
     if array.ndim != ndim or not np.all(np.isfinite(array)):
         raise InputError(f"kernel: {ndim}-dimensional array of finite numbers expected, shape {array.shape} found.")
     return array

@@ -8,7 +8,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from ogilvie.errors import ConvergenceError, InputError
 from ogilvie.frames import rotation_matrix
-from ogilvie.loads.base import MOORING, vector6
+from ogilvie.loads.base import MOORING, Surroundings, Terms, vector6
+from ogilvie.loads.kernel import Callback
 
 Array = NDArray[Any]
 
@@ -38,7 +39,8 @@ class MoorDyn:
 
     Notes
     -----
-    Use: ``start`` with the first pose, ``call`` at t, t + period, ..., ``close`` at the end. Between two calls each fairlead
+    As a load of a vessel it needs nothing more; by hand: ``start`` with the first pose, ``call`` at t, t + period, ...,
+    ``close`` at the end. Between two calls each fairlead
     moves along the cubic of its places and velocities at both, in ten straight pieces (fewer where they were shorter than dt):
     it does not drift from the ship, and its velocity hardly jumps, for a jump is a blow to the lines. MoorDyn writes its log
     and output files beside the input file and its greeting to the terminal.
@@ -79,6 +81,10 @@ class MoorDyn:
     def covers(self) -> frozenset[str]:
         """Effects that this load accounts for."""
         return frozenset({MOORING})
+
+    def bind(self, surroundings: Surroundings) -> Terms:
+        """Return what the time loop calls."""
+        return Terms(callback=Callback(self.call, self.period, begin=self.start, alone=True))
 
     def start(self, t: float, eta: ArrayLike, nu: ArrayLike) -> Array:
         """Read the file, let the lines find their shape with the ship at rest in the pose eta, return the force (6,) there.

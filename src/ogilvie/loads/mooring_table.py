@@ -166,7 +166,7 @@ class MooringTable:
     @property
     def kernel(self) -> Kernel:
         """The compiled force with its tables."""
-        return Kernel(_table_kernel, self.data.copy())
+        return Kernel(_table_kernel, self.data, limits="offsets within its tables")
 
     def force(self, eta: ArrayLike | None = None) -> Array:
         """Return the force (6,) on the body about O in body axes at the pose eta (6,), NaN outside the tables."""

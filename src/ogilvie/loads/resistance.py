@@ -224,13 +224,13 @@ class SurgeResistance:
 
     def resistance(self, speed: ArrayLike) -> Array:
         """Return the resistance (...) in still water at speeds (m/s), N, thrust left out; NaN outside the table."""
-        kernel, u = Kernel(resistance_force, self.data.copy()), np.asarray(speed, dtype=float)
+        kernel, u = Kernel(resistance_force, self.data), np.asarray(speed, dtype=float)
         forces = [kernel.force(nu=[v, 0, 0, 0, 0, 0])[0] for v in u.ravel()]
         return self.thrust - np.array(forces).reshape(u.shape)
 
     def bind(self, surroundings: Surroundings) -> Terms:
         """Return the compiled force for the time loop."""
-        return Terms(kernel=Kernel(resistance_force, self.data.copy()))
+        return Terms(kernel=Kernel(resistance_force, self.data))
 
 
 def _pieces(x: ArrayLike, y: ArrayLike, what: str, *, signed: bool = False) -> tuple[Array, Array]:

@@ -159,4 +159,5 @@ class RollDamping:
         D, z = np.zeros((6, 6)), np.zeros(6)
         D[ROLL, ROLL], z[ROLL] = self.linear, self.ratio
         kernel = Kernel(roll_polynomial, np.array([self.quadratic, self.cubic])) if self.quadratic or self.cubic else None
-        return Terms(damping=D, damping_ratio=z, kernel=kernel)
+        small = None if kernel is None else Terms(damping=D, damping_ratio=z)
+        return Terms(damping=D, damping_ratio=z, kernel=kernel, small=small)

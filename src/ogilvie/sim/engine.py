@@ -125,6 +125,13 @@ class Engine:
         return ""
 
     def start(self, initial: Initial) -> tuple[Array, Array, float]:
+        """Return the beginning as :meth:`state_at_start` and tell it to the loads that Python computes."""
+        y, memory, time = self.state_at_start(initial)
+        if isinstance(self.scheme, LargeMotions):
+            self.scheme.begin(time, y)
+        return y, memory, time
+
+    def state_at_start(self, initial: Initial) -> tuple[Array, Array, float]:
         """Return y = (eta, nu) (r, 12), memory (r, k) and time (s) of the beginning.
 
         Raises

@@ -175,6 +175,20 @@ class LargeMotions:
             y, memory, wave, external, at.row, at.steps, at.first, at.stride, at.number, at.origin, out,
         )  # fmt: skip
 
+    def begin(self, t: float, y: Array) -> None:
+        """Tell the Python forces where the vessel starts, y (r, 12).
+
+        Raises
+        ------
+        InputError
+            A force with a state of its own for several realisations.
+        """
+        for name, callback in zip(self.laws.names[len(self.table) - len(self.callbacks) :], self.callbacks, strict=True):
+            if callback.alone and len(y) > 1:
+                raise InputError(f"{name}: one realisation at a time expected, since it keeps a state; {len(y)} found.")
+            if callback.begin is not None:
+                callback.begin(t, y[0, :6].copy(), y[0, 6:].copy())
+
     def kernel_forces(self, which: int, realisation: int, t: Array, eta: Array, nu: Array) -> Array:
         """Return the force (n, 6) of one compiled load at recorded times t (n,), poses and velocities (n, 6)."""
         kernel = self.forces.kernels[which]

@@ -16,6 +16,7 @@ from ogilvie.hydro.progress import tracked
 from ogilvie.hydro.schema import DOFS
 from ogilvie.sim.engine import Engine, Initial, first_step
 from ogilvie.sim.forces import LoadForce
+from ogilvie.sim.large import LargeMotions
 from ogilvie.sim.large_forces import LargeLoadForce
 from ogilvie.sim.scheme import Interval
 
@@ -65,6 +66,8 @@ class Run:
         """Run to the end; return what stopped it before, if anything."""
         number = len(self.y)
         threads = min(number, config.NUMBA_NUM_THREADS)  # type: ignore[attr-defined]
+        if isinstance(self.engine.scheme, LargeMotions) and self.engine.scheme.callbacks:
+            threads = 1  # Python calls one after the other
         pool = ThreadPoolExecutor(threads) if threads > 1 else None
         try:
             for done, count in tracked(self._blocks(), show=progress, title="simulate"):

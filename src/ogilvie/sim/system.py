@@ -169,12 +169,13 @@ def assemble(vessel: Vessel, *, bound: tuple[Terms, ...] | None = None, large: b
         heading=vessel.heading,
     )
     _check_mass(system)
-    return _with_damping_ratios(system)
+    stiffness = _total([(t.small or t).stiffness for t in bound], (6, 6))
+    return _with_damping_ratios(system, stiffness)
 
 
-def critical_damping(system: LinearSystem, dof: int) -> float:
+def critical_damping(system: LinearSystem, dof: int, stiffness: Array | None = None) -> float:
     """Return 2 sqrt(C (M + A(w_n))) of an uncoupled degree of freedom at its natural frequency w_n = sqrt(C / (M + A(w_n)))."""
-    C, M = system.stiffness[dof, dof], system.mass[dof, dof]
+    C, M = (system.stiffness if stiffness is None else stiffness)[dof, dof], system.mass[dof, dof]
     if C <= 0.0:
         raise InputError(
             f"damping ratio of {DOFS[dof]}: a positive stiffness expected, {C:g} found, so there is no critical damping. "
@@ -206,13 +207,13 @@ def warn_of_growth(system: LinearSystem) -> None:
         )
 
 
-def _with_damping_ratios(system: LinearSystem) -> LinearSystem:
-    """Turn fractions of critical damping into damping matrices."""
+def _with_damping_ratios(system: LinearSystem, stiffness: Array) -> LinearSystem:
+    """Turn fractions of critical damping into damping matrices, with the stiffness of small motions."""
     terms = []
     for term in system.terms:
         D = np.zeros(6)
         for i in np.flatnonzero(term.damping_ratio):
-            D[i] = term.damping_ratio[i] * critical_damping(system, int(i))
+            D[i] = term.damping_ratio[i] * critical_damping(system, int(i), stiffness)
         terms.append(replace(term, damping=term.damping + np.diag(D), damping_ratio=np.zeros(6)) if D.any() else term)
     damping = _total([t.damping for t in terms], (6, 6))
     return replace(system, damping=damping, terms=tuple(terms))

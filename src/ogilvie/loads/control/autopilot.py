@@ -145,7 +145,7 @@ class Autopilot:
         else:
             S = self.wave_filter.step_matrix(np.array([[I]]), np.array([[D]]), self.period).ravel()
         data = np.concatenate([head, course, blade, S, np.ravel(self.heading)])
-        return Terms(control=Sampled(k.autopilot, data, np.zeros(k.MEMORY), self.period))
+        return Terms(control=Sampled(k.autopilot, data, np.zeros(k.MEMORY), self.period, self.signals))
 
     def _gains(self, I: float, D: float) -> tuple[float, float, float]:
         M, C = np.array([[I]]), np.array([[D]])

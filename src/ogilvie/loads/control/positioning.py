@@ -165,7 +165,7 @@ class DynamicPositioning:
         else:
             S = self.wave_filter.step_matrix(M, D, self.period).ravel()
         data = np.concatenate([head, *course, S, *[unit.data(self.period) for unit in units], np.ravel(self.setpoint)])
-        return Terms(control=Sampled(k.positioning, data, np.zeros(k.THRUST + 2 * len(units)), self.period))
+        return Terms(control=Sampled(k.positioning, data, np.zeros(k.THRUST + 2 * len(units)), self.period, self.signals))
 
 
 def _three(value: ArrayLike, what: str, unit: str) -> Array:

@@ -154,7 +154,7 @@ class SpeedKeeping:
         data = np.concatenate([head, [len(np.asarray(self.speed))], course, np.ravel(self.speed)])
         memory = np.zeros(MEMORY)
         memory[THRUST] = self.thrust
-        return Terms(control=Sampled(_speed_keeping, data, memory, self.period))
+        return Terms(control=Sampled(_speed_keeping, data, memory, self.period, self.signals))
 
 
 @njit(cache=True, nogil=True)

@@ -8,7 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ogilvie.errors import InputError
+from ogilvie.loads.base import Surroundings, Terms
 from ogilvie.loads.control.checks import positive
+from ogilvie.loads.kernel import Callback
 
 Array = NDArray[Any]
 
@@ -55,6 +57,10 @@ class UserForce:
         if isinstance(self.covers, str) or not all(isinstance(effect, str) for effect in self.covers):
             raise InputError(f"UserForce: covers: a set of names of effects expected, {self.covers!r} found.")
         object.__setattr__(self, "covers", frozenset(self.covers))
+
+    def bind(self, surroundings: Surroundings) -> Terms:
+        """Return what the time loop calls."""
+        return Terms(callback=Callback(self.call, self.period))
 
     def call(self, t: float, eta: Array, nu: Array) -> Array:
         """Return the force (6,) of the function at time t (s), pose eta (6,) and velocity nu (6,).
