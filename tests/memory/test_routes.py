@@ -263,6 +263,8 @@ def test_bad_choices(change, words):
 
 
 def test_data_without_damping_variable():
+    with pytest.raises(og.InputError, match="data set"):
+        og.retardation(np.ones(3))
     with pytest.raises(og.InputError, match="radiation_damping expected"):
         og.retardation(synthetic().drop_vars("radiation_damping"))
 

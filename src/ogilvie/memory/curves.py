@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ogilvie.memory.tail import Tail, fit_tail
+from ogilvie.memory.tail import Tail, fit_tail, tail_integrals
 
 Array = NDArray[Any]
 Tails = list[list[Tail | None]]
@@ -40,21 +40,22 @@ class RadiationCurves:
         """Return f (n_w, m, m) with its value at zero frequency, 0, in front."""
         return np.concatenate([np.zeros((1, *f.shape[1:])), f])
 
-    def tail_integrals(self, t: Array) -> Array:
-        """Return int_{omega_N}^inf B cos(omega t) d omega of each coupling, shape (n_t, m, m)."""
-        out = np.zeros((len(t), *self.B.shape[1:]))
-        for i, row in enumerate(self.tails):
-            for j, tail in enumerate(row):
-                if tail is not None:
-                    out[:, i, j] = tail.integral(self.omega[-1], t).real
-        return out
-
     def energetic_step(self) -> float:
         """Median spacing of the frequencies that carry the damping, rad/s."""
         diagonal = np.abs(np.einsum("wii->wi", self.B))
         peak = diagonal.max(axis=0)
         level = (diagonal[:, peak > 0] / peak[peak > 0]).max(axis=1)
         return float(np.median(np.diff(self.omega_from_zero)[level > 0.05]))
+
+
+def cosine_integrals(tails: Tails, omega_N: float, t: Array) -> Array:
+    """Return int_{omega_N}^{inf} B cos(omega t) d omega of each tail, shape (n_t, m, m); zero where there is none."""
+    out = np.zeros((len(t), len(tails), len(tails)))
+    found = [(i, j, tail) for i, row in enumerate(tails) for j, tail in enumerate(row) if tail is not None]
+    if found:
+        rows, columns, present = zip(*found, strict=True)
+        out[:, rows, columns] = tail_integrals(present, omega_N, t).real
+    return out
 
 
 def continued(omega: Array, A: Array, B: Array, dofs: tuple[str, ...], kind: str) -> tuple[RadiationCurves, list[str]]:

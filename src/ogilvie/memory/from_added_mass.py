@@ -1,5 +1,6 @@
 """K(t) from the added mass: the sine form, integrated exactly piece by piece, with the tail that causality demands."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -67,15 +68,17 @@ def _tail_integrals(curves: RadiationCurves, D_N: Array, first: Array, s: Array)
 
     out = -first * (np.pi / 2 - sici(s)[0])[:, None, None]
     out += (D_N + first) * power_integral(np.array([3.0]), s).imag[:, :, None]
-    for i, row in enumerate(curves.tails):
-        for j, tail in enumerate(row):
-            if tail is not None and tail.p < _STEEP:
-                out[:, i, j] += _partner_integral(tail, s)
+    slow = [(i, j, x) for i, row in enumerate(curves.tails) for j, x in enumerate(row) if x is not None and x.p < _STEEP]
+    if slow:
+        rows, columns, tails = zip(*slow, strict=True)
+        out[:, rows, columns] += _partner_integrals(tails, s)
     return out
 
 
-def _partner_integral(tail: Tail, s: Array) -> Array:
-    """Return int_1^inf g(x) sin(s x) dx (n_s,) of the causal partner of a damping tail b x^-p."""
-    p = tail.p if abs(tail.p - 3.0) > _LOGARITHM else 3.0 + _LOGARITHM
-    powers = power_integral(np.array([p, 3.0]), s).imag
-    return -np.tan(p * np.pi / 2) * tail.B_N * np.exp(-tail.c) * (powers[:, 0] - powers[:, 1])
+def _partner_integrals(tails: Sequence[Tail], s: Array) -> Array:
+    """Return int_1^inf g(x) sin(s x) dx (n_s, n_tails) of the causal partners of damping tails b x^-p."""
+    p = np.array([tail.p for tail in tails])
+    p = np.where(np.abs(p - 3.0) > _LOGARITHM, p, 3.0 + _LOGARITHM)
+    b = np.array([tail.B_N * np.exp(-tail.c) for tail in tails])
+    powers = power_integral(np.append(p, 3.0), s).imag
+    return -np.tan(p * np.pi / 2) * b * (powers[:, :-1] - powers[:, -1:])

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ogilvie.memory.curves import RadiationCurves
+from ogilvie.memory.curves import RadiationCurves, cosine_integrals
 from ogilvie.memory.fourier import fourier_integral, legendre_pieces
 
 Array = NDArray[Any]
@@ -39,4 +39,4 @@ def kernel_from_damping(curves: RadiationCurves, A_inf: Array | None, t: Array, 
     """
     w = curves.omega_from_zero
     data = fourier_integral(w, legendre_pieces(w, curves.from_zero(curves.B), interpolation), t).real
-    return 2 / np.pi * (data + curves.tail_integrals(t))
+    return 2 / np.pi * (data + cosine_integrals(curves.tails, curves.omega[-1], t))

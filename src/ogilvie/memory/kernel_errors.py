@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ogilvie.memory.curves import RadiationCurves
+from ogilvie.memory.curves import RadiationCurves, cosine_integrals
 from ogilvie.memory.from_damping import kernel_from_damping
 from ogilvie.memory.tail import Tail, fit_tail
 
@@ -65,14 +65,14 @@ def other_interpolation(interpolation: str) -> str:
 
 def _other_tails(curves: RadiationCurves, t: Array) -> tuple[Array, Array]:
     """Changes of K(t) (n_t, m, m) by the two other tails of each coupling; only early times tell them apart."""
+    omega, early = curves.omega, t[: len(t) // 4 + 2]
+    others = [[_others(omega, curves.B[:, i, j], tail) for j, tail in enumerate(row)] for i, row in enumerate(curves.tails)]
+    base = cosine_integrals(curves.tails, omega[-1], early)
     changes = np.zeros((2, len(t), *curves.B.shape[1:]))
-    t = t[: len(t) // 4 + 2]
-    for i, row in enumerate(curves.tails):
-        for j, tail in enumerate(row):
-            base = _integral(tail, curves.omega[-1], t)
-            for change, other in zip(changes, _others(curves.omega, curves.B[:, i, j], tail), strict=True):
-                if other is not None:
-                    change[: len(t), i, j] = 2 / np.pi * (_integral(other, curves.omega[-1], t) - base)
+    for k, change in enumerate(changes):
+        tails = [[pair[k] for pair in row] for row in others]
+        exists = np.array([[tail is not None for tail in row] for row in tails])
+        change[: len(early)] = 2 / np.pi * np.where(exists, cosine_integrals(tails, omega[-1], early) - base, 0.0)
     return changes[0], changes[1]
 
 
@@ -80,7 +80,3 @@ def _others(omega: Array, b: Array, tail: Tail | None) -> tuple[Tail | None, Tai
     """Two other tails; omega^-2 where another correction gives none or, at the bounds of the exponent, the same."""
     short, corrected = fit_tail(omega, b, "fit", share=0.3), fit_tail(omega, b, "fit", power=3)
     return short, fit_tail(omega, b, "omega-2") if corrected in (None, tail) else corrected
-
-
-def _integral(tail: Tail | None, omega_N: float, t: Array) -> Array:
-    return np.zeros(len(t)) if tail is None else tail.integral(omega_N, t).real

@@ -13,7 +13,7 @@ from ogilvie.memory.from_added_mass import kernel_from_added_mass
 from ogilvie.memory.from_damping import kernel_from_damping
 from ogilvie.memory.from_samples import equidistant_step, kernel_by_ifft, kernel_by_trapezoid
 from ogilvie.memory.infinite import infinite_added_mass
-from ogilvie.memory.kernel_errors import doubts_of, other_interpolation
+from ogilvie.memory.kernel_errors import Doubts, doubts_of, other_interpolation
 from ogilvie.memory.screening import clean_frequencies, describe
 from ogilvie.memory.table import Retardation
 
@@ -114,19 +114,12 @@ def retardation(
     given = "added_mass_inf" in hydro
     A_inf = hydro.added_mass_inf.values if given else A_ogilvie
     K = K_damping if method == "damping" else route(curves, A_inf, t, interpolation)
-    K_other = K_damping if method == "added_mass" else kernel_from_added_mass(curves, A_inf, t, interpolation)
-    exact = route if method in _EXACT else kernel_from_damping
-    scale = np.abs(K).max(axis=0)
-    scale = np.where(scale > 0, scale, np.nan)
     return Retardation(
         t,
         K,
         A_inf,
         dofs,
-        truncation_error=doubts.later / scale,
-        tail_error=doubts.tail / scale,
-        discretisation_error=np.abs(exact(curves, A_inf, t, other_interpolation(interpolation)) - K).max(axis=0) / scale,
-        consistency_error=np.abs(K_other - K).max(axis=0) / scale,
+        **_errors(curves, A_inf, t, method, interpolation, K, K_damping, doubts),
         tail_exponent=np.array([[np.nan if x is None else x.p for x in row] for row in curves.tails]),
         A_inf_ogilvie=A_ogilvie,
         omega=omega_all,
@@ -134,9 +127,27 @@ def retardation(
         radiation_damping=B_all,
         mask=mask,
         A_inf_given=given,
-        source=f"{method} of {hydro.attrs.get('name', 'vessel')}, {interpolation}, tail {_tail_of(method, tail)}",
+        source=f"{method} of {hydro.attrs.get('name', 'vessel')}, {interpolation}, tail {tail if method in _EXACT else 'none'}",
         notes=tuple(notes + _remarks(curves, method, given, t[-1], horizon)),
     )
+
+
+def _errors(
+    curves: RadiationCurves, A_inf: Array, t: Array, method: str, interpolation: str, K: Array, K_damping: Array, doubts: Doubts
+) -> dict[str, Array]:
+    """Error estimates (m, m) as parts of the largest |K_ij|, NaN where that is zero."""
+    peak = np.abs(K).max(axis=0)
+    scale = np.where(peak > 0, peak, np.nan)
+    if method == "added_mass":
+        K_other, otherwise = K_damping, kernel_from_added_mass(curves, A_inf, t, other_interpolation(interpolation))
+    else:
+        K_other, otherwise = kernel_from_added_mass(curves, A_inf, t, interpolation), K_damping + doubts.interpolation
+    return {
+        "truncation_error": doubts.later / scale,
+        "tail_error": doubts.tail / scale,
+        "discretisation_error": np.abs(otherwise - K).max(axis=0) / scale,
+        "consistency_error": np.abs(K_other - K).max(axis=0) / scale,
+    }
 
 
 def _route(method: str, interpolation: str) -> Route:
@@ -147,12 +158,10 @@ def _route(method: str, interpolation: str) -> Route:
     return (_EXACT | _SAMPLED)[method]
 
 
-def _tail_of(method: str, tail: str) -> str:
-    return tail if method in _EXACT else "none"
-
-
 def _data(hydro: "xr.Dataset") -> tuple[Array, Array, Array]:
     """Frequencies, added mass and damping at zero speed."""
+    if not hasattr(hydro, "data_vars"):
+        raise InputError(f"retardation: a hydrodynamic data set (e.g. from read_hydro) expected, {type(hydro).__name__} found.")
     if missing := [name for name in ("added_mass", "radiation_damping") if name not in hydro]:
         raise InputError(f"retardation: a hydrodynamic data set with {', '.join(missing)} expected; see og.hydro_from_arrays.")
     if hydro.attrs.get("speed", 0.0) != 0.0:
@@ -187,7 +196,7 @@ def _check_data(omega: Array, B: Array, duration: float | None, dt: float | None
     if not np.any(B):
         raise InputError("retardation: the damping is zero at all frequencies; there is no fluid memory to model.")
     for name, value in (("duration", duration), ("dt", dt)):
-        if value is not None and not (np.isfinite(value) and value > 0):
+        if value is not None and not (isinstance(value, int | float | np.number) and np.isfinite(value) and value > 0):
             raise InputError(f"retardation: {name} must be a positive number of seconds, {value!r} found.")
     if duration is not None and dt is not None and dt > duration:
         raise InputError(f"retardation: dt = {dt:g} s exceeds the duration {duration:g} s.")
