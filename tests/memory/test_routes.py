@@ -177,6 +177,7 @@ class TestConsistency:
         K = og.retardation(synthetic())
         assert K.consistency_error[0, 0] < 3e-3
         assert "A vs B" in str(K)
+        assert not any("another" in n for n in K.notes)
 
     def test_it_is_the_difference_of_the_two(self):
         h = synthetic(8.0, 40)
@@ -192,7 +193,9 @@ class TestConsistency:
 
     def test_wrong_infinite_added_mass_is_found(self):
         h = synthetic().assign(added_mass_inf=(("influenced_dof", "radiating_dof"), [[2.1]]))
-        assert og.retardation(h).consistency_error[0, 0] > 0.5
+        K = og.retardation(h)
+        assert K.consistency_error[0, 0] > 0.5
+        assert any(n.startswith("K from the added mass is another") and "heave" in n for n in K.notes)
 
 
 class TestInfiniteAddedMass:

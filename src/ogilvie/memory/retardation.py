@@ -16,6 +16,7 @@ from ogilvie.memory.infinite import infinite_added_mass
 from ogilvie.memory.kernel_errors import Doubts, doubts_of, other_interpolation
 from ogilvie.memory.screening import clean_frequencies, describe
 from ogilvie.memory.table import Retardation
+from ogilvie.memory.times import time_table
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -27,7 +28,7 @@ _EXACT: dict[str, Route] = {"damping": kernel_from_damping, "added_mass": kernel
 _SAMPLED: dict[str, Route] = {"trapezoid": kernel_by_trapezoid, "ifft": kernel_by_ifft}
 METHODS = (*_EXACT, *_SAMPLED)
 
-_FORGOTTEN = 2e-3  # of the largest K_ii: where the table may end
+_CONTRADICTION = 0.1  # of the largest K_ii, by which the two exact forms may differ without a word
 
 
 def retardation(
@@ -75,11 +76,12 @@ def retardation(
 
     Notes
     -----
-    K(t) = (2/pi) int_0^inf B cos(omega t) d omega = -(2/pi) int_0^inf omega (A - A_inf) sin(omega t) d omega with B(0) = 0;
-    A_inf from the data where they have it, otherwise from Ogilvie's relation A_inf = A(omega) + (1/omega) int_0^inf K(t)
-    sin(omega t) dt with K from the damping, averaged over the frequencies by confidence (:mod:`ogilvie.memory.infinite`);
-    both are kept for comparison. The error estimates are explained at :class:`Retardation`; those of the tail and of what
-    is left after the last time are those of the damping whatever the method.
+    K(t) = (2/pi) int_0^inf B cos(omega t) d omega = -(2/pi) int_0^inf omega (A - A_inf) sin(omega t) d omega with B(0) = 0.
+    A_inf is taken from the data where they have it, otherwise from Ogilvie's relation
+    A_inf = A(omega) + (1/omega) int_0^inf K(t) sin(omega t) dt with K from the damping, averaged over the frequencies by
+    confidence (:mod:`ogilvie.memory.infinite`); both are kept for comparison. The error estimates are explained at
+    :class:`Retardation`. Those of the tail and of what is left after the last time are those of the damping whatever the
+    method; the discretisation error of the sums is their distance from the exact integral.
 
     References
     ----------
@@ -107,19 +109,23 @@ def retardation(
     if left_out := describe(omega_all, mask):
         notes.insert(0, left_out)
     horizon = np.pi / curves.energetic_step()
-    t = _times(curves, duration, dt, horizon, interpolation)
+    t = time_table(curves, duration, dt, horizon, interpolation)
     K_damping = kernel_from_damping(curves, None, t, interpolation)
     doubts = doubts_of(curves, K_damping, t, interpolation, horizon)
     A_ogilvie = infinite_added_mass(curves, t, K_damping, doubts)
     given = "added_mass_inf" in hydro
     A_inf = hydro.added_mass_inf.values if given else A_ogilvie
     K = K_damping if method == "damping" else route(curves, A_inf, t, interpolation)
+    errors = _errors(curves, A_inf, t, method, interpolation, K, K_damping, doubts)
+    notes += _remarks(curves, method, given, t[-1], horizon)
+    if method in _EXACT:
+        notes += _contradictions(dofs, errors["consistency_error"])
     return Retardation(
         t,
         K,
         A_inf,
         dofs,
-        **_errors(curves, A_inf, t, method, interpolation, K, K_damping, doubts),
+        **errors,
         tail_exponent=np.array([[np.nan if x is None else x.p for x in row] for row in curves.tails]),
         A_inf_ogilvie=A_ogilvie,
         omega=omega_all,
@@ -128,7 +134,7 @@ def retardation(
         mask=mask,
         A_inf_given=given,
         source=f"{method} of {hydro.attrs.get('name', 'vessel')}, {interpolation}, tail {tail if method in _EXACT else 'none'}",
-        notes=tuple(notes + _remarks(curves, method, given, t[-1], horizon)),
+        notes=tuple(notes),
     )
 
 
@@ -202,22 +208,6 @@ def _check_data(omega: Array, B: Array, duration: float | None, dt: float | None
         raise InputError(f"retardation: dt = {dt:g} s exceeds the duration {duration:g} s.")
 
 
-def _times(curves: RadiationCurves, duration: float | None, dt: float | None, horizon: float, interpolation: str) -> Array:
-    dt = dt or _nice_step(2 * np.pi / curves.omega[-1] / 20)
-    if duration is None:
-        duration = _memory_length(curves, horizon, dt, interpolation)
-    return dt * np.arange(int(np.ceil(duration / dt - 1e-9)) + 1)
-
-
-def _memory_length(curves: RadiationCurves, horizon: float, dt: float, interpolation: str) -> float:
-    t = np.linspace(0.0, horizon, 600)
-    K = np.abs(np.einsum("tii->ti", kernel_from_damping(curves, None, t, interpolation)))
-    peak = K.max(axis=0)
-    alive = (K[:, peak > 0] / peak[peak > 0]).max(axis=1) > _FORGOTTEN
-    last = t[np.flatnonzero(alive)[-1]]
-    return float(max(min(1.05 * last, horizon), 40 * dt))
-
-
 def _remarks(curves: RadiationCurves, method: str, A_inf_given: bool, duration: float, horizon: float) -> list[str]:
     """What the user should know besides the tails."""
     remarks = []
@@ -236,7 +226,12 @@ def _remarks(curves: RadiationCurves, method: str, A_inf_given: bool, duration: 
     return remarks
 
 
-def _nice_step(dt: float) -> float:
-    """Round down to 1, 2 or 5 times a power of ten."""
-    decade = 10.0 ** np.floor(np.log10(dt))
-    return float(max(m for m in (1.0, 2.0, 5.0) if m * decade <= dt * (1 + 1e-9)) * decade)
+def _contradictions(dofs: tuple[str, ...], consistency: Array) -> list[str]:
+    """Name the degrees of freedom in which added mass and damping do not give the same K."""
+    far = [f"{dof} {x:.0%}" for dof, x in zip(dofs, np.diag(consistency), strict=True) if x > _CONTRADICTION]
+    if not far:
+        return []
+    return [
+        f"K from the added mass is another than K from the damping in {', '.join(far)}: damping ends too high, A_inf is off, "
+        "or the two contradict each other; see check(hydro)."
+    ]
