@@ -265,6 +265,14 @@ def test_bad_choices(change, words):
         og.retardation(synthetic(), **change)
 
 
+def test_damping_in_couplings_alone_is_no_damping():
+    h = synthetic()
+    only = {name: h[name].values * np.array([[0.0, 1.0], [1.0, 0.0]]) for name in ("added_mass", "radiation_damping")}
+    two = og.hydro_from_arrays(omega=h.omega.values, dofs=("heave", "pitch"), **only)
+    with pytest.raises(og.InputError, match="no fluid memory"):
+        og.retardation(two, frequencies="all")
+
+
 def test_data_without_damping_variable():
     with pytest.raises(og.InputError, match="data set"):
         og.retardation(np.ones(3))

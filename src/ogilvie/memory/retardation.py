@@ -199,8 +199,8 @@ def _mask(frequencies: str | ArrayLike, omega: Array, B: Array) -> Array:
 def _check_data(omega: Array, B: Array, duration: float | None, dt: float | None) -> None:
     if len(omega) < 4:
         raise InputError(f"retardation: at least 4 frequencies expected, {len(omega)} found; K needs the whole damping curve.")
-    if not np.any(B):
-        raise InputError("retardation: the damping is zero at all frequencies; there is no fluid memory to model.")
+    if not np.any(np.einsum("wii->wi", B)):
+        raise InputError("retardation: the damping of each dof is zero at all frequencies; there is no fluid memory to model.")
     for name, value in (("duration", duration), ("dt", dt)):
         if value is not None and not (isinstance(value, int | float | np.number) and np.isfinite(value) and value > 0):
             raise InputError(f"retardation: {name} must be a positive number of seconds, {value!r} found.")
