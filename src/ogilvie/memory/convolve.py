@@ -11,7 +11,7 @@ from ogilvie.memory.table import Retardation
 
 Array = NDArray[Any]
 
-SHARE = 1e-5  # of int |K| dt that the default length of a memory leaves out; 1e-3 moves a softly moored surge by 0.6 %
+SHARE = 1e-5  # of int |K| dt that the default length of a memory leaves out; 1e-3 moves a softly moored yaw by 0.6 %
 
 
 def memory_length(K: Retardation, *, share: float = SHARE) -> float:
