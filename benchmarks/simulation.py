@@ -33,7 +33,8 @@ def vessel(*, convolution: bool = False) -> og.Vessel:
     )
     model = memory_model(A_inf)
     t = np.arange(0.0, 60.0, 0.05)
-    radiation = og.Convolution(og.Retardation(t, model.impulse(t), A_inf)) if convolution else og.StateSpaceRadiation(model)
+    table = og.Retardation(t, model.impulse(t), A_inf)
+    radiation = og.Convolution(table, truncation=table.duration) if convolution else og.StateSpaceRadiation(model)
     body = og.RigidBody(mass=1e7, cog=[0.5, 0.0, 1.0], inertia=np.diag([4e8, 7e9, 7e9]))
     loads = (
         og.LinearRestoring(hydro),

@@ -68,6 +68,7 @@ _PUBLIC = {
     "bretschneider": "waves.spectra",
     "check": "hydro.checks",
     "check_mesh": "mesh.inspect",
+    "convolve": "memory.convolve",
     "davenport_gust": "waves.gust",
     "decay": "post.decay",
     "equilibrium": "mesh.equilibrium",

@@ -98,6 +98,8 @@ def test_froude_scaling(hemisphere):
     [
         ({"duration": -1.0}, "duration"),
         ({"dt": 0.0}, "dt"),
+        ({"dt": np.nan}, "dt"),
+        ({"duration": "long"}, "duration"),
         ({"dt": 3.0, "duration": 2.0}, "exceeds"),
         ({"tail": "omega-4"}, "tail"),
         ({"interpolation": "cubic"}, "interpolation"),

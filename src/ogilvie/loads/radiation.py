@@ -8,8 +8,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from ogilvie.errors import InputError
 from ogilvie.loads.base import RADIATION, MemoryKernel, MemoryModel, Surroundings, Terms, dof_indices, embed
-from ogilvie.memory.retardation import Retardation
+from ogilvie.memory.convolve import checked_length, truncated
 from ogilvie.memory.statespace import StateSpace
+from ogilvie.memory.table import Retardation
 
 Array = NDArray[Any]
 
@@ -84,7 +85,9 @@ class Convolution:
     K : Retardation
         Retardation functions with their added mass at infinite frequency.
     truncation : float, optional
-        Length T of the memory, s; the whole table where it is not given. ``K.truncation_error`` tells what a table leaves out.
+        Length T of the memory, s. By default the shortest after which no more than 1e-5 of int |K| dt is left in any coupling
+        (:func:`ogilvie.memory.convolve.memory_length`); ``K.duration`` takes the whole table. ``K.truncation_error`` tells what
+        the table itself leaves out.
 
     Raises
     ------
@@ -108,13 +111,7 @@ class Convolution:
     name: str = "radiation"
 
     def __init__(self, K: Retardation, *, truncation: float | None = None) -> None:
-        if not isinstance(K, Retardation):
-            raise InputError(f"Convolution: a Retardation (e.g. from retardation) expected, {type(K).__name__} found.")
-        length = K.duration if truncation is None else float(truncation)
-        if not (0.0 < length <= K.duration * (1 + 1e-9)):
-            raise InputError(
-                f"Convolution: truncation in (0, {K.duration:g}] s, the length of the table, expected, {truncation} found."
-            )
+        length = checked_length(K, truncation, "Convolution")
         object.__setattr__(self, "K", K)
         object.__setattr__(self, "truncation", length)
         object.__setattr__(self, "name", "radiation")
@@ -126,10 +123,9 @@ class Convolution:
 
     def bind(self, surroundings: Surroundings) -> Terms:
         """Return the arrays for the time loop."""
-        keep = round(self.truncation / self.K.dt) + 1
-        K = embed(self.K.K[:keep], self.K.dofs, (1, 2))
-        added_mass = _matrix(self.K.A_inf, self.K.dofs, "Convolution: A_inf")
-        return Terms(added_mass=added_mass, memory=MemoryKernel(self.K.t[:keep], K))
+        K = truncated(self.K, self.truncation)
+        added_mass = _matrix(K.A_inf, K.dofs, "Convolution: A_inf")
+        return Terms(added_mass=added_mass, memory=MemoryKernel(K.t, embed(K.K, K.dofs, (1, 2))))
 
 
 def _matrix(value: ArrayLike, dofs: tuple[str, ...], what: str) -> Array:

@@ -9,16 +9,15 @@ from numpy.typing import NDArray
 
 from ogilvie.errors import InputError
 from ogilvie.loads.base import MemoryKernel
+from ogilvie.memory.lag import START, lag_weights, start_factors
 from ogilvie.sim.dynamics import COLUMNS, FAST, combine, pack_mechanics, record, stages
 from ogilvie.sim.integrate import memory_step, refuse_unstable_step, step_matrix
-from ogilvie.sim.lag import lag_weights
 from ogilvie.sim.scheme import Interval
 from ogilvie.sim.seaway import combine_harmonics
 from ogilvie.sim.system import TURNING, LinearSystem
 
 Array = NDArray[Any]
 ComplexArray = NDArray[Any]
-_START = 8  # number of steps whose history needs weights of its own
 _NEAR = 5  # number of weights at the near end that depend on where the history ends
 _HEADER = 8  # entries of the memory vector before the velocities: step count, place of the newest velocity, carried force (6)
 
@@ -49,11 +48,11 @@ class ConvolutionScheme:
     Notes
     -----
     mu(t + c dt) = int_0^inf K(s + c dt) nu(t - s) ds + (current step), c = 0, 1/2, 1. The past is a sum over stored velocities
-    with the fourth-order weights of :mod:`ogilvie.sim.lag`. With I the integral of K from 0 to dt/2 and J that from dt/2 to dt,
-    the current step adds I v_1, I v_2, (J - I) v_1 + 2 I v_3 to the stages 2, 3, 4: what
-    :func:`ogilvie.sim.integrate.memory_step` does for K = C exp(A t) B. A step costs two sums per coupling: the memory force at
-    its end is carried over.
-    A start with a jump in velocity or acceleration keeps the order: the integral then begins at the start.
+    with the fourth-order weights of :mod:`ogilvie.memory.lag`. With I the integral of K from 0 to dt/2 and J that from dt/2
+    to dt, the current step adds I v_1, I v_2, (J - I) v_1 + 2 I v_3 to the stages 2, 3, 4: what
+    :func:`ogilvie.sim.integrate.memory_step` does for K = C exp(A t) B. A step costs two sums per coupling: the memory
+    force at its end is carried over. A start with a jump in velocity or acceleration keeps the order: the integral then
+    begins at the start.
 
     References
     ----------
@@ -80,13 +79,12 @@ class ConvolutionScheme:
         now, half, one = (lag_weights(kernel, dt, c, n) for c in (0.0, 0.5, 1.0))
         near = now[:_NEAR].copy()
         near[1:] -= one[: _NEAR - 1]
-        start = np.zeros((_START, 3, _START, 6, 6))
-        for k in range(_START):
+        start = np.zeros((START, 3, START, 6, 6))
+        for k in range(START):
             for place, c in enumerate((0.0, 0.5, 1.0)):
                 start[k, place, : k + 1] = lag_weights(kernel, dt, c, k)
         pairs = np.argwhere(np.abs(kernel.K).max(axis=0) > 0.0)
         both = np.stack([half, one])[:, :, pairs[:, 0], pairs[:, 1]]  # (2, n + 1, n_pairs)
-        unit = MemoryKernel(np.linspace(0.0, 20.0, 21), np.ones((21, 6, 6)))
         coupling = np.zeros((4, 4, 6, 6))
         near_half, far_half = (kernel.spline.integrate(c * dt, (c + 0.5) * dt) for c in (0.0, 0.5))
         coupling[1, 0] = coupling[2, 1] = near_half
@@ -99,7 +97,7 @@ class ConvolutionScheme:
             weights=np.ascontiguousarray(both.transpose(2, 0, 1)),
             near=near,
             start_weights=start,
-            start_factors=np.ascontiguousarray(lag_weights(unit, 1.0, 0.0, 20)[:4, 0, 0]),
+            start_factors=start_factors(),
         )
 
     @property
@@ -123,7 +121,7 @@ class ConvolutionScheme:
         carried = np.zeros((len(amplitude), 6))
         for (i, j), w in zip(self.pairs, self.weights, strict=True):
             carried[:, i] += (past[:, j] * w[1]).sum(axis=1)
-        count = np.full((len(amplitude), 1), float(_START))
+        count = np.full((len(amplitude), 1), float(START))
         velocities = np.concatenate([past, past], axis=2).reshape(len(amplitude), -1)
         return np.concatenate([count, np.zeros_like(count), carried, velocities], axis=1)
 
@@ -137,7 +135,7 @@ class ConvolutionScheme:
 
 def _check_step(system: LinearSystem, kernel: MemoryKernel, dt: float) -> None:
     """The fluid acts between a spring K(0) (fast motions) and nothing (slow ones): both must be stable."""
-    if kernel.t[-1] < _START * dt:
+    if kernel.t[-1] < START * dt:
         raise InputError(f"dt: at most an eighth of the memory's {kernel.t[-1]:g} s expected, {dt:g} s found.")
     W, D, U = system.inverse_mass, system.damping_at_speed, system.speed
     nothing = memory_step(np.zeros((0, 0)), np.zeros((0, 6)), np.zeros((6, 0)), dt)
