@@ -81,6 +81,7 @@ _PUBLIC = {
     "irregular": "waves.sea",
     "isherwood_wind": "loads.wind_isherwood",
     "jonswap": "waves.spectra",
+    "kernel_at_speed": "memory.kernel_at_speed",
     "load_mesh": "mesh.files",
     "npd_gust": "waves.gust",
     "ochi_hubble": "waves.spectra",

@@ -113,12 +113,47 @@ def test_bad_arguments(change, words):
         og.retardation(h, **change)
 
 
-def test_coefficients_at_speed_are_refused():
-    w = np.linspace(0.1, 1, 9)
-    A = np.ones((9, 1, 1))
-    h = og.hydro_from_arrays(omega=w, added_mass=A, radiation_damping=A, speed=5.0, dofs=("heave",))
-    with pytest.raises(og.InputError, match="zero speed"):
-        og.retardation(h)
+def oscillating(U=0.0):
+    """Radiation data at speed U of a model whose K is known, with its retardation functions at rest."""
+    w = np.linspace(0.02, 12.0, 600)
+    s = 1j * w[:, None, None]
+    b = np.array([[2.0, 0.4], [0.5, 1.5]])  # two oscillators: K_hat(0) = 0, passive
+    H = s * b.T @ np.linalg.solve(s**2 * np.eye(2) + s * np.diag([0.9, 1.2]) + np.diag([0.8, 1.7]), np.tile(b, (600, 1, 1)))
+    A_inf = np.array([[5.0, 0.3], [0.3, 7.0]])
+    T = A_inf + H / s
+    L = np.array([[0.0, -1.0], [0.0, 0.0]])
+    T = (np.eye(2) + U * L.T / s) @ T @ (np.eye(2) - U * L / s)
+    return og.hydro_from_arrays(
+        omega=w,
+        added_mass=T.real,
+        radiation_damping=-w[:, None, None] * T.imag,
+        added_mass_inf=A_inf,
+        speed=U,
+        dofs=("heave", "pitch"),
+    )
+
+
+def test_data_at_speed_give_the_retardation_functions_at_rest():
+    rest, sailing = (og.retardation(oscillating(U), duration=40.0, dt=0.05) for U in (0.0, 1.5))
+    assert np.abs(sailing.K - rest.K).max() < 1e-9 * np.abs(rest.K).max()
+    assert any("speed 1.5 m/s are taken off" in note for note in sailing.notes)
+
+
+def test_kernel_at_speed_has_the_added_mass_and_damping_at_speed():
+    U = 1.5
+    K = og.retardation(oscillating(), duration=60.0, dt=0.02)
+    sailing = og.kernel_at_speed(K, U)
+    wanted = oscillating(U)
+    w = wanted.omega.values[10:200:10]
+    table = og.Retardation(sailing.t, sailing.K, sailing.A_inf, ("heave", "pitch"))
+    K_hat = table.transform(w)
+    B = sailing.damping + K_hat.real
+    A = sailing.A_inf + K_hat.imag / w[:, None, None] - sailing.stiffness / w[:, None, None] ** 2
+    at = slice(10, 200, 10)
+    assert np.abs(B - wanted.radiation_damping.values[at]).max() < 2e-3 * np.abs(wanted.radiation_damping.values).max()
+    size = np.abs(wanted.added_mass.values[at])
+    assert (np.abs(A - wanted.added_mass.values[at]) / size.max(axis=(1, 2))[:, None, None]).max() < 2e-3
+    assert np.abs(sailing.K[-1]).max() < 1e-3 * np.abs(sailing.K).max()
 
 
 def test_single_frequency_and_zero_damping_are_refused():

@@ -46,7 +46,8 @@ def retardation(
     Parameters
     ----------
     hydro : xarray.Dataset
-        With radiation_damping and added_mass; see :mod:`ogilvie.hydro.schema`.
+        With radiation_damping and added_mass; see :mod:`ogilvie.hydro.schema`. From data at forward speed the terms of speed
+        are taken off (:func:`ogilvie.zero_speed_equivalent`): the time loop and :func:`ogilvie.kernel_at_speed` put them back.
     method : {"damping", "added_mass", "trapezoid", "ifft"}
         ``damping``: the cosine form, ``added_mass``: the sine form, both integrated exactly from 0 to infinity; they agree
         where the data are causal. ``trapezoid`` and ``ifft``: paper A's Eqs. (9) and (8) as published, sums over
@@ -71,7 +72,7 @@ def retardation(
     Raises
     ------
     InputError
-        Coefficients at forward speed, fewer than four frequencies, non-positive duration or step, NaN, damping that is zero
+        Fewer than four frequencies, non-positive duration or step, NaN, damping that is zero
         everywhere, unknown method, tail or interpolation.
 
     Notes
@@ -101,11 +102,13 @@ def retardation(
     (True, 1.0)
     """
     route = _route(method, interpolation)
+    hydro, taken_off = _at_rest(hydro)
     omega_all, A_all, B_all = _data(hydro)
     mask = _mask(frequencies, omega_all, B_all)
     _check_data(omega_all[mask], B_all[mask], duration, dt)
     dofs = tuple(str(d) for d in hydro.influenced_dof.values)
     curves, notes = continued(omega_all[mask], A_all[mask], B_all[mask], dofs, tail)
+    notes[:0] = taken_off
     if left_out := describe(omega_all, mask):
         notes.insert(0, left_out)
     horizon = np.pi / curves.energetic_step()
@@ -164,17 +167,25 @@ def _route(method: str, interpolation: str) -> Route:
     return (_EXACT | _SAMPLED)[method]
 
 
+def _at_rest(hydro: "xr.Dataset") -> tuple["xr.Dataset", list[str]]:
+    """Return the data with the terms of forward speed taken off, and a note of it."""
+    speed = float(getattr(hydro, "attrs", {}).get("speed", 0.0))
+    if speed == 0.0:
+        return hydro, []
+    from ogilvie.hydro.at_speed import zero_speed_equivalent
+
+    forces = [v for v in ("excitation_force", "Froude_Krylov_force", "diffraction_force") if v in hydro]
+    rest = zero_speed_equivalent(hydro.drop_vars(forces))
+    left = max(rest.attrs["asymmetry_added_mass"], rest.attrs["asymmetry_radiation_damping"])
+    return rest, [f"the terms of the speed {speed:.4g} m/s are taken off; couplings ij and ji then differ by up to {left:.2%}."]
+
+
 def _data(hydro: "xr.Dataset") -> tuple[Array, Array, Array]:
     """Frequencies, added mass and damping at zero speed."""
     if not hasattr(hydro, "data_vars"):
         raise InputError(f"retardation: a hydrodynamic data set (e.g. from read_hydro) expected, {type(hydro).__name__} found.")
     if missing := [name for name in ("added_mass", "radiation_damping") if name not in hydro]:
         raise InputError(f"retardation: a hydrodynamic data set with {', '.join(missing)} expected; see og.hydro_from_arrays.")
-    if hydro.attrs.get("speed", 0.0) != 0.0:
-        raise InputError(
-            f"retardation: coefficients at zero speed expected, speed {hydro.attrs['speed']:.4g} m/s found. At speed "
-            f"the damping does not vanish at infinite frequency and this version does not split it off; use zero-speed ones."
-        )
     values = hydro.omega.values, hydro.added_mass.values, hydro.radiation_damping.values
     bad = [n for n, x in zip(("omega", "added mass", "damping"), values, strict=True) if not np.all(np.isfinite(x))]
     if "added_mass_inf" in hydro and not np.all(np.isfinite(hydro.added_mass_inf.values)):
