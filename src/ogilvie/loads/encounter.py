@@ -8,7 +8,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from ogilvie.loads.base import ComplexArray
-from ogilvie.loads.kernel import ETA, NU_R, ROTATION, TIME, Kernel, load_kernel
+from ogilvie.loads.kernel import ETA, MEAN_SPEED, ROTATION, TIME, Kernel, load_kernel
 from ogilvie.waves.field import Sea
 from ogilvie.waves.sincos import sines_and_cosines
 
@@ -31,7 +31,7 @@ def encounter_kernel(
     ----------
     force : callable
         ``force(headings, speed)``: complex force (n_h, n, 6) of each component per metre of amplitude on a vessel with these
-        headings (n_h,) in the world, rad, at this speed through the water, m/s.
+        headings (n_h,) in the world, rad, at this mean speed through the water, m/s.
     sea : Sea
     ramp : float
         s; the sea grows from nothing with sin^2.
@@ -44,7 +44,8 @@ def encounter_kernel(
     Notes
     -----
     F = Re sum_j X_j(psi, u) a_j exp(i (omega_j t - k_j (x cos b_j + y sin b_j) + phase_j)) in the horizontal axes that turn
-    with the vessel; x and y are those of O. X is tabulated every 3 degrees of psi as a cubic spline, and linear in u.
+    with the vessel; x and y are those of O. X is tabulated every 3 degrees of psi as a cubic spline, and linear in the mean
+    speed u (with the speed of the moment, surge in the waves would make a second-order force of its own).
     """
     grid, periodic = _heading_grid(headings)
     table = np.stack([_spline_table(force(grid, float(u)), grid, periodic) for u in speeds])  # (n_u, n_h, 2, 12, n)
@@ -62,7 +63,7 @@ def _limits(grid: Array, periodic: bool, speeds: Array) -> str:
     lo, hi = np.degrees(grid[[0, -1]])
     parts = [] if periodic else [f"headings of the vessel {lo:.4g}..{hi:.4g} deg in this sea"]
     if len(speeds) > 1:
-        parts.append(f"speeds through the water {speeds[0]:.4g}..{speeds[-1]:.4g} m/s")
+        parts.append(f"mean speeds through the water {speeds[0]:.4g}..{speeds[-1]:.4g} m/s")
     return " and ".join(parts)
 
 
@@ -103,7 +104,7 @@ def _wave_force(x, data, own, force):
     h = (x[ETA + 5] - data[3]) / data[4]
     if data[7] > 0.5:
         h -= n_h * np.floor(h / n_h)
-    u = (x[NU_R] - data[5]) / data[6] if n_u > 1 else 0.0
+    u = (x[MEAN_SPEED] - data[5]) / data[6] if n_u > 1 else 0.0
     outside = (data[7] < 0.5 and (h < -1e-9 or h > n_h - 1 + 1e-9)) or u < -1e-9 or u > n_u - 1 + 1e-9
     if outside:
         force[:] = np.nan

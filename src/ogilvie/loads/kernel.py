@@ -19,8 +19,9 @@ from ogilvie.errors import InputError
 Array = NDArray[Any]
 
 #: Places in the situation x: time (s); pose eta in the world (m, rad); velocity nu in body axes; velocity through the water
-#: nu_r in body axes; the rotation matrix R (3, 3) row by row, body to world; the number of entries.
-TIME, ETA, NU, NU_R, ROTATION, SITUATION = 0, 1, 7, 13, 19, 28
+#: nu_r in body axes; the rotation matrix R (3, 3) row by row, body to world; the mean speed, that is the surge velocity through
+#: the water averaged over the last minute or so; the number of entries.
+TIME, ETA, NU, NU_R, ROTATION, MEAN_SPEED, SITUATION = 0, 1, 7, 13, 19, 28, 29
 
 _F8 = types.float64[::1]
 SIGNATURE = types.void(_F8, _F8, _F8, _F8)
@@ -125,7 +126,7 @@ def _hold(x, data, own, force):
 
 
 def situation(t: float = 0.0, eta: Any = None, nu: Any = None, nu_r: Any = None) -> Array:
-    """Return the situation x (28,) of a pose and velocities, zero where not given.
+    """Return the situation x (29,) of a pose and velocities, zero where not given; the mean speed is the present one.
 
     Examples
     --------
@@ -139,7 +140,8 @@ def situation(t: float = 0.0, eta: Any = None, nu: Any = None, nu_r: Any = None)
     x[ETA:NU] = 0.0 if eta is None else eta
     x[NU:NU_R] = 0.0 if nu is None else nu
     x[NU_R:ROTATION] = x[NU:NU_R] if nu_r is None else nu_r
-    x[ROTATION:] = rotation_matrix(*x[ETA + 3 : ETA + 6]).ravel()
+    x[ROTATION:MEAN_SPEED] = rotation_matrix(*x[ETA + 3 : ETA + 6]).ravel()
+    x[MEAN_SPEED] = x[NU_R]
     return x
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ogilvie.errors import InputError
 from ogilvie.loads.base import MemoryKernel
-from ogilvie.loads.kernel import ETA, NU, SIGNATURE, SITUATION, Callback, Kernel, Sampled
+from ogilvie.loads.kernel import ETA, MEAN_SPEED, NU, NU_R, SIGNATURE, SITUATION, Callback, Kernel, Sampled
 from ogilvie.sim.large_kernel import LARGE_COLUMNS, add_kernels, run_large, situate
 from ogilvie.sim.packed import PackedMemory
 from ogilvie.sim.scheme import Interval
@@ -105,19 +105,20 @@ class LargeMotions:
         parts = (system.inverse_mass, system.body_mass, system.added_mass, system.damping, system.stiffness)
         matrices = np.ascontiguousarray(np.array(parts, dtype=float).transpose(0, 2, 1))
         packed = PackedMemory.of(system.memory, dt, momentum_output(system.memory)).turned()
-        scheme = cls(float(dt), frame, matrices, packed, forces, laws, tuple(callbacks), _sampling(laws, packed.size, dt))
+        table = _sampling(laws, 1 + packed.size, dt)
+        scheme = cls(float(dt), frame, matrices, packed, forces, laws, tuple(callbacks), table)
         scheme._refuse_unstable(system)
         return scheme
 
     @property
     def columns(self) -> int:
-        """Length of a row of output: eta, nu, acceleration, radiation, held forces, signals."""
+        """Length of a row of output: eta, nu, acceleration, radiation, mean speed, held forces, signals."""
         return LARGE_COLUMNS + 6 * len(self.table) + len(self.signals)
 
     @property
     def memory_size(self) -> int:
-        """Length of the memory vector: fluid, then held force and memory of each control law."""
-        return int(self.table[-1, 3]) if len(self.table) else self.packed.size
+        """Length of the memory vector: mean speed, fluid, then held force and memory of each control law."""
+        return int(self.table[-1, 3]) if len(self.table) else 1 + self.packed.size
 
     @cached_property
     def signals(self) -> NDArray[np.int64]:
@@ -141,12 +142,12 @@ class LargeMotions:
         return np.concatenate([np.zeros(0), *rows])
 
     def rest(self, nu: Array) -> Array:
-        """Return the memory (r, k) of vessels that sailed steadily at U; see :class:`ogilvie.sim.scheme.Scheme`."""
-        return self._controlled(np.zeros((len(nu), self.packed.size)))
+        """Return the memory (r, k) of vessels that sailed steadily; see :class:`ogilvie.sim.scheme.Scheme`."""
+        return self._controlled(np.zeros((len(nu), self.packed.size)), nu[:, 0])
 
     def steady(self, omega: Array, velocity: Array, amplitude: Array) -> Array:
         """Return the memory (r, k) of harmonic motions at t = 0; see :class:`ogilvie.sim.scheme.Scheme`."""
-        return self._controlled(self.packed.steady(omega, velocity, amplitude))
+        return self._controlled(self.packed.steady(omega, velocity, amplitude), np.full(len(amplitude), self.frame[0]))
 
     def advance(self, y: Array, memory: Array, wave: Array, external: Array, at: Interval, out: Array) -> int:
         """Advance in place; see :class:`ogilvie.sim.scheme.Scheme`."""
@@ -189,8 +190,10 @@ class LargeMotions:
             if callback.begin is not None:
                 callback.begin(t, y[0, :6].copy(), y[0, 6:].copy())
 
-    def kernel_forces(self, which: int, realisation: int, t: Array, eta: Array, nu: Array) -> Array:
-        """Return the force (n, 6) of one compiled load at recorded times t (n,), poses and velocities (n, 6)."""
+    def kernel_forces(
+        self, which: int, realisation: int, t: Array, eta: Array, nu: Array, mean_speed: Array | None = None
+    ) -> Array:
+        """Return the force (n, 6) of one compiled load at times t (n,), poses and velocities (n, 6), mean speeds (n,)."""
         kernel = self.forces.kernels[which]
         one = Compiled((self.forces.names[which],), (kernel,))
         own = kernel.own[min(realisation, len(kernel.own) - 1)]
@@ -199,13 +202,14 @@ class LargeMotions:
         for i in range(len(t)):
             x[ETA:NU], x[NU : NU + 6] = eta[i], nu[i]
             situate(t[i], self.frame[2:5], x, trig)
+            x[MEAN_SPEED] = x[NU_R] if mean_speed is None else mean_speed[i]
             add_kernels(one.functions, ranges, one.data, own, x, force[i])
         return force
 
-    def _controlled(self, memory: Array) -> Array:
-        """Append held forces and memories of the control laws."""
+    def _controlled(self, memory: Array, mean_speed: Array) -> Array:
+        """Put the mean speed (r,) before the memory of the fluid, held forces and memories of the control laws after it."""
         start = np.concatenate([np.zeros(0), *[np.r_[np.zeros(6), law.memory] for law in self.laws.kernels]])
-        return np.concatenate([memory, np.broadcast_to(start, (len(memory), len(start)))], axis=1)
+        return np.concatenate([mean_speed[:, None], memory, np.broadcast_to(start, (len(memory), len(start)))], axis=1)
 
     def _refuse_unstable(self, system: LinearSystem) -> None:
         """Check dt on the motions about the steady course, with the compiled forces linearised there."""

@@ -58,7 +58,7 @@ class LargeLoadForce:
         if term.memory is not None or term.added_mass.any():
             out += rows[:, 18:24]
         for which in self.kernels:
-            out += self.scheme.kernel_forces(which, realisation, t, rows[:, :6], rows[:, 6:12])
+            out += self.scheme.kernel_forces(which, realisation, t, rows[:, :6], rows[:, 6:12], rows[:, 24])
         if self.held >= 0:
             begin = LARGE_COLUMNS + 6 * self.held
             out += rows[:, begin : begin + 6]

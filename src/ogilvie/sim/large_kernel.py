@@ -10,13 +10,17 @@ Every product with a velocity is without work, so a passive memory stays passive
 import numpy as np
 from numba import njit
 
-from ogilvie.loads.kernel import ETA, NU, NU_R, ROTATION, SITUATION, TIME
+from ogilvie.loads.kernel import ETA, MEAN_SPEED, NU, NU_R, ROTATION, SITUATION, TIME
 from ogilvie.sim.dynamics import FAST, combine
 from ogilvie.sim.packed import advance_memory, memory_force
 from ogilvie.waves.sincos import sine_and_cosine
 
-#: Columns of a row of output: eta, nu, acceleration, radiation force without -A nu'; then the held forces and the signals.
-LARGE_COLUMNS = 24
+#: Columns of a row of output: eta, nu, acceleration, radiation force without -A nu', mean speed; then the held forces and the
+#: signals.
+LARGE_COLUMNS = 25
+
+#: s, over which the mean speed is averaged (exponentially): long beside a wave, short beside a manoeuvre.
+AVERAGING = 30.0
 
 
 @njit(cache=True, nogil=True, fastmath=FAST)
@@ -157,15 +161,18 @@ def run_large(
     functions, ranges, data, own, laws, table, law_data, signals,
     y, memory, wave, external, row, steps, first, stride, number, origin, out,
 ):  # fmt: skip
-    """Advance `steps` steps; see :class:`ogilvie.sim.large.LargeMotions` for the arrays."""
-    n_states = places.shape[0] * (output.shape[3] + 2)
-    states = memory[:n_states].reshape(places.shape[0], output.shape[3] + 2)
+    """Advance `steps` steps; see :class:`ogilvie.sim.large.LargeMotions` for the arrays.
+
+    The memory vector begins with the mean speed u_m, u_m' = (u_r - u_m) / AVERAGING, advanced with the body's stages.
+    """
+    n_states = 1 + places.shape[0] * (output.shape[3] + 2)
+    states = memory[1:n_states].reshape(places.shape[0], output.shape[3] + 2)
     old = np.empty(output.shape[3] + 2)
     rate, a, v, delta = np.empty((4, 6)), np.empty((4, 6)), np.empty((4, 6)), np.empty((4, 6))
     both, radiation, held = np.zeros((2, 24)), np.zeros((4, 6)), np.empty(6)
     mu, force, x, trig, work = np.empty(12), np.empty(6), np.empty(SITUATION), np.empty(4), np.empty(12)
     current = frame[2:5]
-    flat_delta = delta.reshape(24)
+    flat_delta, mean_rate = delta.reshape(24), np.zeros(4)
     written = 0
     for i in range(steps):
         t = origin + (number + i) * dt
@@ -180,6 +187,8 @@ def run_large(
                     x[NU + p] += h * a[stage - 1, p]
                 v[stage, p] = x[NU + p]
             situate(t + h, current, x, trig)
+            x[MEAN_SPEED] = memory[0] + (h * mean_rate[stage - 1] if stage > 0 else 0.0)
+            mean_rate[stage] = (x[NU_R] - x[MEAN_SPEED]) / AVERAGING
             if stage == 0:
                 _sample(laws, table, law_data, number + i, x, memory)
                 held[:] = external
@@ -208,6 +217,7 @@ def run_large(
             for p in range(6):
                 out[written, p], out[written, 6 + p] = y[p], y[6 + p]
                 out[written, 12 + p], out[written, 18 + p] = a[0, p], radiation[0, p]
+            out[written, 24] = memory[0]
             for k in range(table.shape[0]):
                 for p in range(6):
                     out[written, LARGE_COLUMNS + 6 * k + p] = memory[table[k, 2] + p]
@@ -215,5 +225,6 @@ def run_large(
                 out[written, LARGE_COLUMNS + 6 * table.shape[0] + k] = memory[signals[k]]
             written += 1
         combine(dt, y, rate, a)
+        memory[0] += dt / 6.0 * (mean_rate[0] + 2.0 * (mean_rate[1] + mean_rate[2]) + mean_rate[3])
         advance_memory(places, source, bands, dense, flat_delta, old, states)
     return written

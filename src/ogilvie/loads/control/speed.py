@@ -91,7 +91,7 @@ class SpeedKeeping:
     reference_frequency: float | None = field(default=None, kw_only=True)
     max_acceleration: float = field(default=np.inf, kw_only=True)
     period: float = field(default=0.5, kw_only=True)
-    name: str = field(default="speed keeping", kw_only=True)
+    name: str = field(default="speed_keeping", kw_only=True)
 
     def __post_init__(self) -> None:
         what = "SpeedKeeping: "
