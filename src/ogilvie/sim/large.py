@@ -136,10 +136,12 @@ class LargeMotions:
         own = _ranges([k.own.shape[1] for k in self.forces.kernels])
         return np.ascontiguousarray(np.concatenate([self.forces.data_ranges, own], axis=1))
 
-    def own(self, realisation: int) -> Array:
-        """Return the numbers of a realisation, those of all forces one after the other."""
-        rows = [k.own[min(realisation, len(k.own) - 1)] for k in self.forces.kernels]
-        return np.concatenate([np.zeros(0), *rows])
+    @cached_property
+    def own(self) -> tuple[Array, ...]:
+        """Numbers of each realisation, those of all forces one after the other; the last serves those that follow."""
+        count = max([1, *[len(k.own) for k in self.forces.kernels]])
+        rows = [[k.own[min(r, len(k.own) - 1)] for k in self.forces.kernels] for r in range(count)]
+        return tuple(np.concatenate([np.zeros(0), *row]) for row in rows)
 
     def rest(self, nu: Array) -> Array:
         """Return the memory (r, k) of vessels that sailed steadily; see :class:`ogilvie.sim.scheme.Scheme`."""
@@ -151,30 +153,32 @@ class LargeMotions:
 
     def advance(self, y: Array, memory: Array, wave: Array, external: Array, at: Interval, out: Array) -> int:
         """Advance in place; see :class:`ogilvie.sim.scheme.Scheme`."""
+        p = self.packed
+        fixed = (
+            self.dt, self.frame, self.matrices, p.places, p.output, p.coupling, p.source, p.bands, p.dense,
+            self.forces.functions, self.ranges, self.forces.data, self.own[min(at.realisation, len(self.own) - 1)],
+            self.laws.functions, self.table, self.laws.data, self.signals, y, memory, wave, external,
+        )  # fmt: skip
         if not self.callbacks:
-            return self._advance(y, memory, wave, external, at, out)
-        called = self.table[len(self.table) - len(self.callbacks) :]
-        done, written = 0, 0
-        while done < at.steps:
-            number = at.number + done
-            left = at.steps - done
-            for callback, (_, _, begin, _, every) in zip(self.callbacks, called, strict=True):
+            return run_large(*fixed, at.row, at.steps, at.first, at.stride, at.number, at.origin, out)
+        called = [(call, int(row[2]), int(row[4])) for call, row in zip(self.callbacks, self._called, strict=True)]
+        done, written, number, end = 0, 0, at.number, at.number + at.steps
+        while number < end:
+            t, steps = at.origin + number * self.dt, end - number
+            for callback, begin, every in called:
                 if number % every == 0:
-                    memory[begin : begin + 6] = callback.function(at.origin + number * self.dt, y[:6].copy(), y[6:].copy())
-                left = min(left, every - number % every)
-            part = replace(at, steps=left, row=at.row + 2 * done, first=at.first + done, number=number)
-            written += self._advance(y, memory, wave, external, part, out[written:])
-            done += left
+                    memory[begin : begin + 6] = callback.function(t, y[:6], y[6:])
+                steps = min(steps, every - number % every)
+            first = at.first + done
+            written += run_large(*fixed, at.row + 2 * done, steps, first, at.stride, number, at.origin, out[written:])
+            done += steps
+            number += steps
         return written
 
-    def _advance(self, y: Array, memory: Array, wave: Array, external: Array, at: Interval, out: Array) -> int:
-        p = self.packed
-        return run_large(
-            self.dt, self.frame, self.matrices, p.places, p.output, p.coupling, p.source, p.bands, p.dense,
-            self.forces.functions, self.ranges, self.forces.data, self.own(at.realisation),
-            self.laws.functions, self.table, self.laws.data, self.signals,
-            y, memory, wave, external, at.row, at.steps, at.first, at.stride, at.number, at.origin, out,
-        )  # fmt: skip
+    @property
+    def _called(self) -> NDArray[np.int64]:
+        """Rows of the table that belong to the Python forces."""
+        return self.table[len(self.table) - len(self.callbacks) :]
 
     def begin(self, t: float, y: Array) -> None:
         """Tell the Python forces where the vessel starts, y (r, 12).

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from math import isfinite
 from typing import Any
 
 import numpy as np
@@ -71,18 +72,20 @@ class UserForce:
             The function returned something other than six finite numbers. What the function itself raises passes through, with
             a note of the load and the time.
         """
-        where = f"UserForce {self.name!r}: function {getattr(self.function, '__name__', repr(self.function))} at t = {t:g} s"
         try:
-            value = self.function(float(t), np.array(eta, dtype=float), np.array(nu, dtype=float))
+            value = self.function(float(t), eta.copy(), nu.copy())
         except Exception as error:
-            error.add_note(f"Raised in {where}.")
+            error.add_note(f"Raised in {self._where(t)}.")
             raise
         try:
             force = np.array(value, dtype=float)
         except (TypeError, ValueError):
-            raise InputError(f"{where}: six numbers (N, N m) expected, {type(value).__name__} found.") from None
+            raise InputError(f"{self._where(t)}: six numbers (N, N m) expected, {type(value).__name__} found.") from None
         if force.shape != (6,):
-            raise InputError(f"{where}: force of shape (6,) about O expected, {force.shape} found.")
-        if not np.all(np.isfinite(force)):
-            raise InputError(f"{where}: finite numbers expected, {force.tolist()} found.")
+            raise InputError(f"{self._where(t)}: force of shape (6,) about O expected, {force.shape} found.")
+        if not isfinite(force.sum()):
+            raise InputError(f"{self._where(t)}: finite numbers expected, {force.tolist()} found.")
         return force
+
+    def _where(self, t: float) -> str:
+        return f"UserForce {self.name!r}: function {getattr(self.function, '__name__', repr(self.function))} at t = {t:g} s"
