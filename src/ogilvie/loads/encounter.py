@@ -1,91 +1,143 @@
-"""The force of a sea on a vessel that may be anywhere in it, at any heading and speed: a compiled load."""
+"""The force of a sea on a vessel that may be anywhere in it, at any heading and speed: a compiled load.
+
+Components of one direction make a group, and groups with the same frequencies share a table of the force over the heading
+relative to the bow: a short-crested sea of many directions needs no larger table than a long-crested one.
+"""
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from ogilvie.errors import InputError
 from ogilvie.loads.base import ComplexArray
+from ogilvie.loads.interpolation import Headings, run_of, vessel_headings
 from ogilvie.loads.kernel import ETA, MEAN_SPEED, ROTATION, TIME, Kernel, load_kernel
 from ogilvie.waves.field import Sea
 from ogilvie.waves.sincos import sines_and_cosines
 
 Array = NDArray[Any]
+Force = Callable[[Array, Array, float], ComplexArray]
+
 _FAST = {"reassoc", "contract", "nsz", "arcp"}
-_STEP = np.radians(3.0)  # of the table over the vessel's heading, rad
+_STEP = np.radians(3.0)  # of the tables over the relative heading, rad
+_LARGEST = 1.5e9  # bytes of all tables
+_HEAD, _GROUP, _FAMILY = 6, 4, 5  # numbers of the header, of a group, of a family
 
 
-def encounter_kernel(
-    force: Callable[[Array, float], ComplexArray],
-    sea: Sea,
-    *,
-    ramp: float,
-    speeds: Array,
-    headings: tuple[float, float] | None,
-) -> Kernel:
+@dataclass(frozen=True, eq=False)
+class _Family:
+    """Force of components with the same frequencies over the relative heading: (n_u, n_b, 2, 12, n), slopes per step."""
+
+    grid: Array
+    periodic: bool
+    table: Array
+
+    @classmethod
+    def of(cls, force: Force, omega: Array, run: tuple[float, float] | None, speeds: Array) -> "_Family":
+        """Tabulate the force all around or within a run of headings (rad)."""
+        grid = _grid(run)
+        if 8 * 24 * len(omega) * len(grid) * len(speeds) > _LARGEST:
+            raise InputError(
+                f"WaveExcitation: at most {_LARGEST / 1e9:g} GB of tables expected, {len(omega)} frequencies need more. "
+                "Give the sea fewer components, or position='mean'."
+            )
+        table = np.stack([_spline_table(force(omega, grid, float(u)), grid, run is None) for u in speeds])
+        return cls(grid, run is None, table)
+
+
+def encounter_kernel(force: Force, sea: Sea, *, ramp: float, speeds: Array, headings: Headings, heading: float) -> Kernel:
     """Return the wave force as a function of time, place, heading and speed.
 
     Parameters
     ----------
     force : callable
-        ``force(headings, speed)``: complex force (n_h, n, 6) of each component per metre of amplitude on a vessel with these
-        headings (n_h,) in the world, rad, at this mean speed through the water, m/s.
+        ``force(omega, b, speed)``: complex force (n_b, n, 6) per metre of amplitude of waves with the frequencies omega (n,)
+        from the directions b (n_b,) relative to the bow, rad, on a vessel with this mean speed through the water, m/s.
     sea : Sea
     ramp : float
         s; the sea grows from nothing with sin^2.
     speeds : (n_u,) array
         Ascending and uniform; a single one where the force does not depend on speed. Outside them the force is NaN.
-    headings : (float, float), optional
-        Headings of the vessel in the world for which the data hold, rad; all around where it is not given. Outside them the
-        force is NaN.
+    headings : Headings
+        Relative headings of the data. Where they do not go all around, the force is NaN outside the run of them in which the
+        waves lie at the vessel's first heading.
+    heading : float
+        The vessel's first heading, rad.
 
     Notes
     -----
-    F = Re sum_j X_j(psi, u) a_j exp(i (omega_j t - k_j (x cos b_j + y sin b_j) + phase_j)) in the horizontal axes that turn
-    with the vessel; x and y are those of O. X is tabulated every 3 degrees of psi as a cubic spline, and linear in the mean
-    speed u (with the speed of the moment, surge in the waves would make a second-order force of its own).
+    F = Re sum_j X_j(b_j - psi, u) a_j exp(i (omega_j t - k_j (x cos b_j + y sin b_j) + phase_j)) in the horizontal axes that
+    turn with the vessel; x and y are those of O. X is tabulated every 3 degrees as a cubic spline, and linear in the mean speed
+    u (with the speed of the moment, surge in the waves would make a second-order force of its own).
     """
-    grid, periodic = _heading_grid(headings)
-    table = np.stack([_spline_table(force(grid, float(u)), grid, periodic) for u in speeds])  # (n_u, n_h, 2, 12, n)
-    n = len(sea.omega)
-    du = float(speeds[1] - speeds[0]) if len(speeds) > 1 else 0.0
-    # n, headings, speeds, first heading, its step, first speed, its step, periodic, ramp
-    header = [n, len(grid), len(speeds), grid[0], grid[1] - grid[0], speeds[0], du, float(periodic), ramp]
+    families: dict[Any, int] = {}
+    made: list[_Family] = []
+    order: list[NDArray[np.intp]] = []
+    groups: list[list[float]] = []
+    directions, which = np.unique(sea.direction.round(12), return_inverse=True)
+    for g, direction in enumerate(directions):
+        members = np.flatnonzero(which == g)
+        members = members[np.argsort(sea.omega[members], kind="stable")]
+        run = None if headings.periodic else run_of(headings, direction - heading)
+        key = (sea.omega[members].tobytes(), run)
+        if key not in families:
+            families[key] = len(made)
+            made.append(_Family.of(force, sea.omega[members], run, speeds))
+        groups.append([direction, sum(len(o) for o in order), len(members), families[key]])
+        order.append(members)
+    j = np.concatenate(order)
     kx, ky = sea.wavenumber * np.cos(sea.direction), sea.wavenumber * np.sin(sea.direction)
-    data = np.concatenate([header, sea.omega, kx, ky, table.ravel()])
-    own = np.concatenate([np.atleast_2d(sea.amplitude), np.atleast_2d(sea.phase)], axis=1)
-    return Kernel(_wave_force, data, own, _limits(grid, periodic, speeds), steady=False)
+    du = float(speeds[1] - speeds[0]) if len(speeds) > 1 else 0.0
+    head = [len(j), len(groups), len(speeds), float(speeds[0]), du, ramp]
+    data = np.concatenate([head, np.ravel(groups), _described(made, len(groups), len(j)), sea.omega[j], kx[j], ky[j]])
+    data = np.concatenate([data, *[family.table.ravel() for family in made]])
+    own = np.concatenate([np.atleast_2d(sea.amplitude)[:, j], np.atleast_2d(sea.phase)[:, j]], axis=1)
+    return Kernel(_wave_force, data, own, _limits(headings, directions, heading, speeds), steady=False)
 
 
-def _limits(grid: Array, periodic: bool, speeds: Array) -> str:
-    lo, hi = np.degrees(grid[[0, -1]])
-    parts = [] if periodic else [f"headings of the vessel {lo:.4g}..{hi:.4g} deg in this sea"]
-    if len(speeds) > 1:
-        parts.append(f"mean speeds through the water {speeds[0]:.4g}..{speeds[-1]:.4g} m/s")
-    return " and ".join(parts)
+def _described(families: list[_Family], groups: int, n: int) -> Array:
+    """Return for each family the place of its table, number of headings, first heading, step, whether it goes all around."""
+    place = _HEAD + _GROUP * groups + _FAMILY * len(families) + 3 * n
+    rows = []
+    for family in families:
+        rows.append([place, len(family.grid), family.grid[0], family.grid[1] - family.grid[0], float(family.periodic)])
+        place += family.table.size
+    return np.ravel(rows)
 
 
-def _heading_grid(headings: tuple[float, float] | None) -> tuple[Array, bool]:
-    if headings is None:
+def _grid(run: tuple[float, float] | None) -> Array:
+    if run is None:
         n = round(2 * np.pi / _STEP)
-        return 2 * np.pi / n * np.arange(n), True
-    lo, hi = headings
-    n = max(4, int(np.ceil((hi - lo) / _STEP)) + 1)
-    return np.linspace(lo, hi, n), False
+        return 2 * np.pi / n * np.arange(n)
+    lo, hi = run
+    return np.linspace(lo, hi, max(4, int(np.ceil((hi - lo) / _STEP)) + 1))
 
 
 def _spline_table(force: ComplexArray, grid: Array, periodic: bool) -> Array:
-    """Return values and slopes times the step (n_h, 2, 12, n) of the cubic spline; 12 = (real, imaginary) of six forces."""
+    """Return values and slopes times the step (n_b, 2, 12, n) of the cubic spline; 12 = (real, imaginary) of six forces."""
     from scipy.interpolate import CubicSpline
 
-    values = np.concatenate([force.real, force.imag], axis=2).transpose(0, 2, 1)  # (n_h, 12, n)
+    values = np.concatenate([force.real, force.imag], axis=2).transpose(0, 2, 1)  # (n_b, 12, n)
     if periodic:
         spline = CubicSpline(np.append(grid, grid[0] + 2 * np.pi), np.concatenate([values, values[:1]]), bc_type="periodic")
     else:
         spline = CubicSpline(grid, values)
     return np.stack([values, spline(grid, 1) * (grid[1] - grid[0])], axis=1)
+
+
+def _limits(headings: Headings, directions: Array, heading: float, speeds: Array) -> str:
+    found = vessel_headings(headings, directions, heading)
+    parts = []
+    if found is not None:
+        lo, hi = np.degrees(found)
+        parts.append(f"headings of the vessel {lo:.4g}..{hi:.4g} deg in this sea")
+    if len(speeds) > 1:
+        parts.append(f"mean speeds through the water {speeds[0]:.4g}..{speeds[-1]:.4g} m/s")
+    return " and ".join(parts)
 
 
 @njit(cache=True, nogil=True, fastmath=_FAST)
@@ -98,19 +150,42 @@ def _add_row(row, weight, n, cosine, sine, total):
         total[i] += weight * s
 
 
+@njit(cache=True, nogil=True, fastmath=_FAST)
+def _add_group(data, family, b, u, n, cosine, sine, total):
+    """Add the force of a group of n components whose heading relative to the bow is b; NaN outside its table."""
+    table, n_b, n_u = data[int(data[family]) :], int(data[family + 1]), int(data[2])
+    around = data[family + 4] > 0.5
+    h = (b - data[family + 2]) / data[family + 3]
+    turn = 2.0 * np.pi / data[family + 3]
+    h -= turn * np.floor((h + (0.0 if around else 0.5 * (turn - n_b + 1.0))) / turn)  # the turn in which the table lies
+    if not around and (h < -1e-6 or h > n_b - 1 + 1e-6):
+        total[:] = np.nan
+        return
+    i = min(max(int(h), 0), n_b - 1 if around else n_b - 2)
+    s, following = h - i, (i + 1) % n_b
+    low = min(max(int(u), 0), max(n_u - 2, 0))
+    for k in range(2 if n_u > 1 else 1):
+        share = 1.0 if n_u == 1 else (u - low if k == 1 else 1.0 - (u - low))
+        here, there = ((low + k) * n_b + i) * 24 * n, ((low + k) * n_b + following) * 24 * n
+        _add_row(table[here:], share * (1.0 + 2.0 * s) * (1.0 - s) ** 2, n, cosine, sine, total)
+        _add_row(table[here + 12 * n :], share * s * (1.0 - s) ** 2, n, cosine, sine, total)
+        _add_row(table[there:], share * s * s * (3.0 - 2.0 * s), n, cosine, sine, total)
+        _add_row(table[there + 12 * n :], share * s * s * (s - 1.0), n, cosine, sine, total)
+
+
 @load_kernel
 def _wave_force(x, data, own, force):
-    n, n_h, n_u = int(data[0]), int(data[1]), int(data[2])
-    h = (x[ETA + 5] - data[3]) / data[4]
-    if data[7] > 0.5:
-        h -= n_h * np.floor(h / n_h)
-    u = (x[MEAN_SPEED] - data[5]) / data[6] if n_u > 1 else 0.0
-    outside = (data[7] < 0.5 and (h < -1e-9 or h > n_h - 1 + 1e-9)) or u < -1e-9 or u > n_u - 1 + 1e-9
-    if outside:
+    n, n_g, n_u = int(data[0]), int(data[1]), int(data[2])
+    u = (x[MEAN_SPEED] - data[3]) / data[4] if n_u > 1 else 0.0
+    if u < -1e-9 or u > n_u - 1 + 1e-9:
         force[:] = np.nan
         return
-    omega, kx, ky = data[9 : 9 + n], data[9 + n : 9 + 2 * n], data[9 + 2 * n : 9 + 3 * n]
-    table = data[9 + 3 * n :]
+    families = _HEAD + _GROUP * n_g
+    n_f = 0
+    for g in range(n_g):
+        n_f = max(n_f, int(data[_HEAD + _GROUP * g + 3]) + 1)
+    first = families + _FAMILY * n_f
+    omega, kx, ky = data[first : first + n], data[first + n : first + 2 * n], data[first + 2 * n : first + 3 * n]
     angle, sine, cosine, total = np.empty(n), np.empty(n), np.empty(n), np.zeros(6)
     for j in range(n):
         angle[j] = omega[j] * x[TIME] - kx[j] * x[ETA] - ky[j] * x[ETA + 1] + own[n + j]
@@ -118,20 +193,14 @@ def _wave_force(x, data, own, force):
     for j in range(n):
         cosine[j] *= own[j]
         sine[j] *= own[j]
-    last = n_h - 1 if data[7] > 0.5 else n_h - 2
-    i = min(max(int(h), 0), last)
-    s = h - i
-    following = (i + 1) % n_h
-    low = min(max(int(u), 0), max(n_u - 2, 0))
-    for k in range(2 if n_u > 1 else 1):
-        share = 1.0 if n_u == 1 else (u - low if k == 1 else 1.0 - (u - low))
-        here, there = ((low + k) * n_h + i) * 24 * n, ((low + k) * n_h + following) * 24 * n
-        _add_row(table[here:], share * (1.0 + 2.0 * s) * (1.0 - s) ** 2, n, cosine, sine, total)
-        _add_row(table[here + 12 * n :], share * s * (1.0 - s) ** 2, n, cosine, sine, total)
-        _add_row(table[there:], share * s * s * (3.0 - 2.0 * s), n, cosine, sine, total)
-        _add_row(table[there + 12 * n :], share * s * s * (s - 1.0), n, cosine, sine, total)
-    if data[8] > 0.0 and x[TIME] < data[8]:
-        grown = np.sin(0.5 * np.pi * max(x[TIME], 0.0) / data[8]) ** 2
+    for g in range(n_g):
+        at = _HEAD + _GROUP * g
+        begin, count = int(data[at + 1]), int(data[at + 2])
+        family = families + _FAMILY * int(data[at + 3])
+        b = data[at] - x[ETA + 5]
+        _add_group(data, family, b, u, count, cosine[begin : begin + count], sine[begin : begin + count], total)
+    if data[5] > 0.0 and x[TIME] < data[5]:
+        grown = np.sin(0.5 * np.pi * max(x[TIME], 0.0) / data[5]) ** 2
         for p in range(6):
             total[p] *= grown
     c, s = np.cos(x[ETA + 5]), np.sin(x[ETA + 5])

@@ -14,7 +14,7 @@ from ogilvie.errors import InputError, OgilvieWarning
 from ogilvie.hydro.schema import DOFS
 from ogilvie.loads.base import DIFFRACTION, FROUDE_KRYLOV, ComplexArray, Surroundings, Terms
 from ogilvie.loads.encounter import encounter_kernel
-from ogilvie.loads.interpolation import reachable
+from ogilvie.loads.interpolation import vessel_headings
 from ogilvie.loads.kernel import Kernel
 from ogilvie.loads.speed_table import HeadingTable, SpeedTable, has_rule
 from ogilvie.waves.field import Sea
@@ -179,7 +179,7 @@ def _encounter(load: WaveExcitation, surroundings: Surroundings, sea: Sea, ramp:
     """Return the compiled force of the sea where the vessel is."""
     inside = _covered(load, sea)
     w, direction = sea.omega[inside], sea.direction[inside]
-    limits = reachable(load._table.headings, direction, surroundings.heading)
+    limits = vessel_headings(load._table.headings, np.unique(direction), surroundings.heading)
     if limits is not None and limits[1] - limits[0] < _TURNS_LEAST:
         raise InputError(
             f"WaveExcitation: large motions need data for the headings that the vessel takes; for this sea they hold from "
@@ -188,11 +188,17 @@ def _encounter(load: WaveExcitation, surroundings: Surroundings, sea: Sea, ramp:
         )
     part = replace(sea, omega=w, direction=direction, amplitude=sea.amplitude[..., inside], phase=sea.phase[..., inside])
 
-    def force(headings: ComplexArray, speed: float) -> ComplexArray:
-        return load._turning(w, direction - headings[:, None], speed)
+    def force(omega: Array, b: Array, speed: float) -> ComplexArray:
+        return load._turning(omega, np.broadcast_to(b[:, None], (len(b), len(omega))), speed)
 
-    speeds = _speeds_met(load, surroundings.speed)
-    return encounter_kernel(force, part, ramp=ramp, speeds=speeds, headings=limits)
+    return encounter_kernel(
+        force,
+        part,
+        ramp=ramp,
+        speeds=_speeds_met(load, surroundings.speed),
+        headings=load._table.headings,
+        heading=surroundings.heading,
+    )
 
 
 def _speeds_met(load: WaveExcitation, speed: float) -> Array:

@@ -133,27 +133,40 @@ def evaluate_turning(omega: Array, headings: Headings, table: ComplexArray, w: A
     return np.einsum("hnb,nbi->hni", across, along)
 
 
-def reachable(headings: Headings, direction: Array, heading: float) -> tuple[float, float] | None:
-    """Return the headings of a vessel, rad, between which waves of these directions (n,) meet it within the data.
-
-    None where the data go all around. The range holds `heading`; without any extent it is that of the waves nearest the edge.
+def run_of(headings: Headings, b: float) -> tuple[float, float]:
+    """Return the ends (rad) of the run of headings, without too wide a gap, in or next to which the heading b lies.
 
     Examples
     --------
-    >>> lo, hi = reachable(Headings(np.radians([90.0, 135.0, 180.0]), False), np.radians([120.0, 130.0]), 0.0)
+    >>> np.degrees(run_of(Headings(np.radians([0.0, 30.0, 150.0, 180.0]), False), np.radians(160.0))).round()
+    array([150., 180.])
+    """
+    t = headings.values
+    cuts = np.flatnonzero(np.diff(t) > _WIDEST_GAP + _TOLERANCE)
+    starts, ends = t[np.r_[0, cuts + 1]], t[np.r_[cuts, len(t) - 1]]
+    x = t[0] + np.mod(b - t[0] + _TOLERANCE, TURN) - _TOLERANCE
+    k = int(np.clip(np.searchsorted(starts, x + _TOLERANCE, side="right") - 1, 0, len(starts) - 1))
+    return float(starts[k]), float(ends[k])
+
+
+def vessel_headings(headings: Headings, direction: Array, heading: float) -> tuple[float, float] | None:
+    """Return the headings of a vessel, rad, between which waves of these directions (n,) meet it within the data.
+
+    None where the data go all around. Counted from the vessel's `heading`, at which the waves lie in some run of the data.
+
+    Examples
+    --------
+    >>> lo, hi = vessel_headings(Headings(np.radians([90.0, 135.0, 180.0]), False), np.radians([120.0, 130.0]), 0.0)
     >>> np.degrees([lo, hi]).round()
     array([-50.,  30.])
     """
     if headings.periodic:
         return None
-    t = headings.values
-    cuts = np.flatnonzero(np.diff(t) > _WIDEST_GAP + _TOLERANCE)
-    starts, ends = t[np.r_[0, cuts + 1]], t[np.r_[cuts, len(t) - 1]]
-    lo, hi = -np.inf, np.inf
+    t, lo, hi = headings.values, -np.inf, np.inf
     for b in direction - heading:
         x = t[0] + np.mod(b - t[0] + _TOLERANCE, TURN) - _TOLERANCE
-        run = int(np.clip(np.searchsorted(starts, x + _TOLERANCE, side="right") - 1, 0, len(starts) - 1))
-        lo, hi = max(lo, x - ends[run]), min(hi, x - starts[run])
+        start, end = run_of(headings, b)
+        lo, hi = max(lo, x - end), min(hi, x - start)
     return heading + lo, heading + hi
 
 

@@ -91,7 +91,7 @@ class Engine:
         if not isinstance(self.scheme, LargeMotions):
             return ()
         laws = zip(self.scheme.laws.names, self.scheme.laws.kernels, strict=True)
-        return tuple((f"{owner}_{name}", unit) for owner, law in laws for name, unit, _ in law.signals)
+        return tuple((f"{owner}_{name}".replace(" ", "_"), unit) for owner, law in laws for name, unit, _ in law.signals)
 
     def load_forces(self) -> Sequence[LoadForce | LargeLoadForce]:
         """Return what evaluates the force of each load from the recorded motion."""

@@ -65,13 +65,7 @@ class LargeLoadForce:
 
 
 def large_load_forces(system: LinearSystem, seaway: Seaway | None, scheme: LargeMotions) -> Sequence[LargeLoadForce]:
-    """Return what evaluates the force of each load.
-
-    Raises
-    ------
-    InputError
-        Added mass in two loads: the force of the moving fluid cannot be told apart.
-    """
+    """Return what evaluates the force of each load."""
     columns = {} if seaway is None else seaway.columns()
     laws = {name: k for k, name in enumerate(scheme.laws.names)}
     return tuple(
@@ -84,6 +78,7 @@ def large_load_forces(system: LinearSystem, seaway: Seaway | None, scheme: Large
             laws.get(name, -1),
         )
         for name, term in zip(system.names, system.terms, strict=True)
+        if not term.current.any()  # water that flows is no force of its own
     )
 
 
