@@ -12,8 +12,9 @@ from ogilvie.hydro.threads import library_threads
 from ogilvie.memory.blocks import coupled_blocks, r_squared
 from ogilvie.memory.common_poles import condense
 from ogilvie.memory.frequency import identify_by_frequency
-from ogilvie.memory.passive import check_square, identify_passive, radiation_data
+from ogilvie.memory.passive import check_square, identify_passive
 from ogilvie.memory.passive_start import identify_passive_from
+from ogilvie.memory.passive_target import radiation_data
 from ogilvie.memory.passivity import is_passive, smallest_damping
 from ogilvie.memory.prony import identify_by_prony
 from ogilvie.memory.raise_order import shortfall
