@@ -87,11 +87,11 @@ def identify_passive(
                 block.p, _ = grow(block.fit, block.p)
     else:
         grow_until(state, r2, max_order, K.dofs, notes)
-    return *polished(state, K, order), notes
+    return *polished(state, K, r2, order), notes
 
 
 def polished(
-    blocks: list[Block], K: Retardation, order: int | None
+    blocks: list[Block], K: Retardation, r2: float, order: int | None
 ) -> tuple[list[tuple[list[int], Array, Array, Array]], Array]:
     """Return the models of the blocks [(dofs, A, B, C)] after a last descent, and A_inf (m, m), in SI.
 
@@ -99,7 +99,7 @@ def polished(
     """
     models, A_inf = [], np.array(K.A_inf)
     for block in blocks:
-        block.fit.aim_at_resonances()
+        _aim(block, r2)
         if order is not None:
             block.fit.weigh_memory(_MEMORY_WEIGHT_ALONE)
         block.p, _ = optimise(block.fit, block.p, 80)
@@ -120,7 +120,7 @@ def grow_until(blocks: list[Block], r2: float, max_order: int, names: tuple[str,
         scores = [max(b.criteria(r2)) for b in blocks]
         worst = int(np.argmax(scores))
         if scores[worst] <= 1.0:
-            if not _aimed(blocks, r2):
+            if not any([_aim(block, r2) for block in blocks]):
                 return
             continue
         block = blocks[worst]
@@ -135,18 +135,18 @@ def grow_until(blocks: list[Block], r2: float, max_order: int, names: tuple[str,
         notes.append(f"order limit {max_order} reached before R2 {r2:g} or the motion tolerance in {', '.join(low)}.")
 
 
-def _aimed(blocks: list[Block], r2: float) -> bool:
-    """Let the blocks aim at the resonances too, as far as the rest stays good; return whether that is new."""
-    new = [block for block in blocks if block.fit.aim_at_resonances()]
-    for block in new:
-        block.scores.clear()
-        start = block.p
-        for _ in range(_HALVINGS):
-            block.p, _ = optimise(block.fit, start, 80)
-            if max(block.criteria(r2)[:2]) <= 1.0:
-                break
-            block.fit.resonance_weight /= 2
-    return bool(new)
+def _aim(block: Block, r2: float) -> bool:
+    """Let the block aim at the resonances too, as far as the rest stays as good as it must; return whether that is new."""
+    allowed, start = max(1.0, 1.05 * max(block.criteria(r2))), block.p
+    if not block.fit.aim_at_resonances():
+        return False
+    block.scores.clear()
+    for _ in range(_HALVINGS):
+        block.p, _ = optimise(block.fit, start, 80)
+        if max(block.criteria(r2)[:2]) <= allowed:
+            break
+        block.fit.resonance_weight /= 2
+    return True
 
 
 def _waive(block: Block, r2: float, names: tuple[str, ...], notes: list[str]) -> None:

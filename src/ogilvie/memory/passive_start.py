@@ -41,7 +41,7 @@ def identify_passive_from(
         _use(block, pool, r2, order, max(2, max_order * len(block.dofs) // sum(map(len, blocks))))
     if order is None:
         _fill_up(state, r2, max_order, K.dofs, notes)
-    return *polished(state, K, order), notes
+    return *polished(state, K, r2, order), notes
 
 
 def oscillators_of(poles: Array) -> tuple[Array, Array]:
