@@ -116,7 +116,7 @@ def identify(
     blocks = coupled_blocks(K.K)
     if not blocks:
         raise InputError("identify: K is zero; there is no fluid memory to model.")
-    m, notes = len(K.dofs), [n for n in K.notes if n.startswith("damping not positive")]
+    m, notes = len(K.dofs), [n for n in K.notes if n.startswith(("damping not positive", "added mass"))]
     M = None if mass is None else check_square("mass", mass, m)
     C = None if stiffness is None else check_square("stiffness", stiffness, m)
     with library_threads(openmp="math", integrals=1, algebra=1):  # small matrices: threads would only wait for each other

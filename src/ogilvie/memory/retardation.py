@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ogilvie.errors import InputError
 from ogilvie.memory.fourier import fourier_integral, legendre_pieces
-from ogilvie.memory.screening import clean_frequencies, describe
+from ogilvie.memory.screening import screen
 from ogilvie.memory.tail import Tail, fit_tail
 
 if TYPE_CHECKING:
@@ -142,8 +142,8 @@ def retardation(
     interpolation : {"spline", "linear"}
         Damping between the frequencies, integrated exactly either way.
     frequencies : {"clean", "all"} or (n_w,) bool array
-        ``clean`` leaves out those whose damping matrix is not positive semi-definite (irregular frequencies) and says which;
-        see :mod:`ogilvie.memory.screening`.
+        ``clean`` leaves out those whose damping matrix is not positive semi-definite (irregular frequencies) or whose added mass
+        contradicts damping, and says which; see :func:`ogilvie.memory.screening.screen`.
 
     Returns
     -------
@@ -181,14 +181,13 @@ def retardation(
             f"the damping does not vanish at infinite frequency and this version does not split it off; use zero-speed ones."
         )
     omega_all, A_all, B_all = hydro.omega.values, hydro.added_mass.values, hydro.radiation_damping.values
-    mask = _mask(frequencies, omega_all, B_all)
+    mask, screened = screen(hydro, _mask(frequencies, omega_all), remove=isinstance(frequencies, str) and frequencies == "clean")
     omega, A, B = omega_all[mask], A_all[mask], B_all[mask]
     _check_data(omega, B, duration, dt)
     dofs = tuple(str(d) for d in hydro.influenced_dof.values)
     w0, B0 = np.concatenate([[0.0], omega]), np.concatenate([np.zeros((1,) + B.shape[1:]), B])
     tails, notes = _tails(omega, B, dofs, tail)
-    if frequencies_left_out := describe(omega_all, mask):
-        notes.insert(0, frequencies_left_out)
+    notes = screened + notes
     dt = dt or _nice_step(2 * np.pi / omega[-1] / 20)
     horizon = np.pi / _energetic_step(omega, B)
     if duration is None:
@@ -227,12 +226,11 @@ def retardation(
     )
 
 
-def _mask(frequencies: str | ArrayLike, omega: Array, B: Array) -> Array:
+def _mask(frequencies: str | ArrayLike, omega: Array) -> Array:
     if isinstance(frequencies, str):
         if frequencies not in ("clean", "all"):
             raise InputError(f"frequencies: 'clean', 'all' or a mask expected, {frequencies!r} found.")
-        finite = np.all(np.isfinite(B))
-        return clean_frequencies(omega, B) if frequencies == "clean" and finite else np.ones(len(omega), dtype=bool)
+        return np.ones(len(omega), dtype=bool)
     mask = np.asarray(frequencies)
     if mask.shape != omega.shape or mask.dtype != bool:
         raise InputError(f"frequencies: a mask of {len(omega)} booleans expected, {mask.dtype} of shape {mask.shape} found.")
