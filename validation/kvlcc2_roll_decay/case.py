@@ -136,8 +136,8 @@ def _checks(data: dict[str, Any]) -> list[dict[str, Any]]:
     ]  # fmt: skip
     checks.append(
         _check(
-            "wave damping of the SSM at the resonance, over the panel method's", data["waves"] / data["tuned"].damping, 1.0, 0.01,
-            "", f"{data['waves']:.4g} kg m2/s",
+            "wave damping of the SSM at the resonance, over the panel method's", data["waves"] / data["tuned"].damping, 1.0,
+            0.01, "", f"{data['waves']:.4g} kg m2/s",
         )
     )  # fmt: skip
     for name in ("SSM", "CIM"):

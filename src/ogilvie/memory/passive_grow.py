@@ -6,16 +6,17 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
-from ogilvie.memory.passive_fit import Fit, split
+from ogilvie.memory.passive_fit import Fit
+from ogilvie.memory.passive_hold import split
 
 Array = NDArray[Any]
 
 
 def candidates(fit: Fit, p: Array, keep: int) -> list[Array]:
     """Return parameters with one more oscillator, placed where it lowers the residual most; best first, not yet optimised."""
-    omega, m, r, n = fit.target.omega, fit.m, fit.r, fit.oscillators(p)
+    omega, r, n = fit.target.omega, fit.r, fit.oscillators(p)
     missing = -fit.error(p)[: len(omega)].real
-    x, b, D = split(p[fit.n_inf :], n, m, r)
+    x, b, D = split(p[fit.n_inf :], n, fit.m, r)
     found = []
     for w0 in np.geomspace(0.5 * omega[0], 4 * omega[-1], 16):
         window = np.exp(-((np.log(omega / w0) / 0.3) ** 2)) + 1e-12
@@ -48,10 +49,10 @@ def optimise(fit: Fit, p: Array, iterations: int) -> tuple[Array, float]:
         gradient, normal = J.T @ residual, J.T @ J
         scale = np.diag(normal) + 1e-6 * np.trace(normal) / len(p)
         for _ in range(9):
-            factor = scipy.linalg.cho_factor(normal + damping * np.diag(scale), check_finite=False)
-            trial = p - scipy.linalg.cho_solve(factor, gradient, check_finite=False)
+            _, step, failed = scipy.linalg.lapack.dposv(normal + damping * np.diag(scale), gradient)
+            trial = p - step
             new = fit.residual(trial)
-            if new @ new < cost:
+            if not failed and new @ new < cost:
                 break
             damping *= 4
         else:

@@ -142,8 +142,8 @@ def retardation(
     interpolation : {"spline", "linear"}
         Damping between the frequencies, integrated exactly either way.
     frequencies : {"clean", "all"} or (n_w,) bool array
-        ``clean`` leaves out those whose damping matrix is not positive semi-definite (irregular frequencies) or whose added mass
-        contradicts damping, and says which; see :func:`ogilvie.memory.screening.screen`.
+        ``clean`` leaves out those whose damping matrix is not positive semi-definite (irregular frequencies) or whose added
+        mass contradicts damping, and says which; see :func:`ogilvie.memory.screening.screen`.
 
     Returns
     -------
@@ -181,7 +181,9 @@ def retardation(
             f"the damping does not vanish at infinite frequency and this version does not split it off; use zero-speed ones."
         )
     omega_all, A_all, B_all = hydro.omega.values, hydro.added_mass.values, hydro.radiation_damping.values
-    mask, screened = screen(hydro, _mask(frequencies, omega_all), remove=isinstance(frequencies, str) and frequencies == "clean")
+    mask, screened = screen(
+        hydro, _mask(frequencies, omega_all), remove=isinstance(frequencies, str) and frequencies == "clean"
+    )
     omega, A, B = omega_all[mask], A_all[mask], B_all[mask]
     _check_data(omega, B, duration, dt)
     dofs = tuple(str(d) for d in hydro.influenced_dof.values)

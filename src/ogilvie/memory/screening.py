@@ -39,8 +39,8 @@ def screen(hydro: "xr.Dataset", mask: Array, *, remove: bool) -> tuple[Array, li
 
     Notes
     -----
-    The laws are those of :func:`ogilvie.check`. Contradictions over a range and spikes are named, not removed: which frequencies
-    to leave out would be a guess.
+    The laws are those of :func:`ogilvie.check`. Contradictions over a range and spikes are named, not removed: which
+    frequencies to leave out would be a guess.
     """
     from ogilvie.hydro.check_causality import causality
     from ogilvie.hydro.check_radiation import outliers, radiating
@@ -55,7 +55,7 @@ def screen(hydro: "xr.Dataset", mask: Array, *, remove: bool) -> tuple[Array, li
     off = np.zeros(len(omega), dtype=bool)
     if good.sum() >= _FEWEST:
         causal = causality(waves, omega[~good])[0]
-        off = np.isin(omega, [f.omega for f in causal.findings if f.local])
+        off = np.isin(omega, [f.omega for f in causal.findings if f.local and f.omega])
         notes += [_off(omega, off, removed=remove), _contradictions(causal)]
     notes.append(_spikes(outliers(waves, omega[~(good & ~off)])))
     return (good & ~off if remove else mask), [note for note in notes if note]
