@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ogilvie.errors import InputError
 from ogilvie.memory.oscillators import state_space
 from ogilvie.memory.passive_fit import Fit
-from ogilvie.memory.passive_grow import grow, optimise
+from ogilvie.memory.passive_grow import QUICK, grow, optimise
 from ogilvie.memory.passive_target import target_of
 from ogilvie.memory.retardation import Retardation
 
@@ -84,7 +84,7 @@ def identify_passive(
     if order is not None:
         for block in state:
             while 2 * block.fit.oscillators(block.p) < order:
-                block.p, _ = grow(block.fit, block.p)
+                block.p, _ = grow(block.fit, block.p, rounds=QUICK)
     else:
         grow_until(state, r2, max_order, K.dofs, notes)
     return *polished(state, K, r2, order), notes

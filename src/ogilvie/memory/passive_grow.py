@@ -11,6 +11,9 @@ from ogilvie.memory.passive_hold import split
 
 Array = NDArray[Any]
 
+THOROUGH = ((10, 8), (1, 60))  # rounds of growth: starts and iterations of each
+QUICK = ((8, 4), (2, 4), (1, 20))
+
 
 def candidates(fit: Fit, p: Array, keep: int) -> list[Array]:
     """Return parameters with one more oscillator, placed where it lowers the residual most; best first, not yet optimised."""
@@ -34,10 +37,13 @@ def candidates(fit: Fit, p: Array, keep: int) -> list[Array]:
     return [trial for _, trial in sorted(found, key=lambda c: c[0])[:keep]]
 
 
-def grow(fit: Fit, p: Array, *, keep: int = 10, short: int = 8, long: int = 60) -> tuple[Array, float]:
-    """Return parameters and cost with one more oscillator: the best of a few starts after a short descent, then a long one."""
-    starts = [optimise(fit, trial, short) for trial in candidates(fit, p, keep)]
-    return optimise(fit, min(starts, key=lambda s: s[1])[0], long)
+def grow(fit: Fit, p: Array, *, rounds: tuple[tuple[int, int], ...] = THOROUGH) -> tuple[Array, float]:
+    """Return parameters and cost with one more oscillator: many starts descend a little, the best one to the end."""
+    starts = [(trial, 0.0) for trial in candidates(fit, p, rounds[0][0])]
+    for keep, iterations in rounds:
+        starts = [optimise(fit, trial, iterations) for trial, _ in starts[:keep]]
+        starts.sort(key=lambda start: start[1])
+    return starts[0]
 
 
 def optimise(fit: Fit, p: Array, iterations: int) -> tuple[Array, float]:
