@@ -14,7 +14,7 @@ from ogilvie.memory.common_poles import condense
 from ogilvie.memory.frequency import identify_by_frequency
 from ogilvie.memory.passive import check_square, identify_passive
 from ogilvie.memory.passive_start import identify_passive_from
-from ogilvie.memory.passive_target import radiation_data
+from ogilvie.memory.passive_target import check_spectrum, radiation_data
 from ogilvie.memory.passivity import is_passive, smallest_damping
 from ogilvie.memory.prony import identify_by_prony
 from ogilvie.memory.raise_order import shortfall
@@ -113,6 +113,9 @@ def identify(
     (2, True, True, True)
     """
     _check_arguments(method, r2, order, max_order)
+    if not isinstance(K, Retardation):
+        raise InputError(f"identify: retardation functions (see retardation) expected, {type(K).__name__} found.")
+    check_spectrum(K)
     blocks = coupled_blocks(K.K)
     if not blocks:
         raise InputError("identify: K is zero; there is no fluid memory to model.")
@@ -191,9 +194,12 @@ def _reported(model: StateSpace, K: Retardation) -> StateSpace:
 def _check_arguments(method: str, r2: float, order: int | None, max_order: int) -> None:
     if method not in METHODS:
         raise InputError(f"method: one of {METHODS} expected, {method!r} found.")
+    for name, value in (("r2", r2), ("order", order), ("max_order", max_order)):
+        if not (value is None and name == "order") and not isinstance(value, int | float | np.number):
+            raise InputError(f"{name}: a number expected, {value!r} found.")
     if not 0.0 < r2 < 1.0:
         raise InputError(f"r2: a number between 0 and 1 (0.99, say) expected, {r2!r} found.")
-    if order is not None and order < 1:
-        raise InputError(f"order: a positive number of states expected, {order!r} found.")
+    if order is not None and (order < 1 or order != int(order)):
+        raise InputError(f"order: a positive whole number of states expected, {order!r} found.")
     if max_order < 1:
         raise InputError(f"max_order: a positive number of states expected, {max_order!r} found.")

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ogilvie.errors import InputError
 from ogilvie.memory.resonances import Resonances, find_resonances
 from ogilvie.memory.retardation import Retardation
 
@@ -14,6 +15,7 @@ Array = NDArray[Any]
 _TAIL_TRUST = 0.005  # error of the tail, in parts of K, at which the weight of K(t) is a quarter
 _LEFT_TRUST = 0.1  # damping at the last frequency, in parts of its peak, at which it is so
 _FARTHEST, _N_BEYOND = 6.0, 12  # times the last frequency, and frequencies up to there
+_FEWEST = 4  # frequencies
 _LOSS = 0.01  # of inertia and stiffness in the compliance
 _ZERO = 1e-3  # of sqrt(spread_ii spread_jj): a coupling below it is zero by symmetry
 
@@ -84,6 +86,26 @@ def target_of(
     else:
         beyond = _beyond(K, omega, b, where, square, weight > 0)
     return Target(omega, a, b, A_inf, K.A_inf_given, weight, K_initial, compliance, resonances, beyond), scale
+
+
+def check_spectrum(K: Retardation) -> None:
+    """Raise InputError where the added mass and damping behind K cannot be fitted: shapes, frequencies, NaN, nothing left."""
+    if K.omega is None or K.added_mass is None or K.radiation_damping is None:
+        return
+    n, m = len(K.omega), len(K.dofs)
+    mask = np.ones(n, dtype=bool) if K.mask is None else np.asarray(K.mask)
+    shapes = [np.shape(x) for x in (K.added_mass, K.radiation_damping, mask)]
+    if shapes != [(n, m, m), (n, m, m), (n,)]:
+        raise InputError(f"identify: added mass and damping ({n}, {m}, {m}) and a mask ({n},) expected, {shapes} found.")
+    omega, B = K.omega[mask], K.radiation_damping[mask]
+    if len(omega) < _FEWEST:
+        raise InputError(f"identify: at least {_FEWEST} frequencies expected, {len(omega)} found: the whole curve is needed.")
+    if not (np.all(np.isfinite(omega)) and omega[0] > 0.0 and np.all(np.diff(omega) > 0.0)):
+        raise InputError("identify: frequencies must be positive and ascending; sort them and leave zero and infinity out.")
+    if not (np.all(np.isfinite(K.added_mass[mask])) and np.all(np.isfinite(B))):
+        raise InputError("identify: finite added mass and damping expected, NaN or infinite found; mask such frequencies.")
+    if not np.any(B):
+        raise InputError("identify: the damping is zero at all frequencies; there is no fluid memory to model.")
 
 
 def radiation_data(K: Retardation) -> tuple[Array, Array, Array]:
