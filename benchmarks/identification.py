@@ -2,8 +2,8 @@
 
 One thread; processor time, so that what else the machine does counts little. Each figure is the best of a few calls of `identify`
 alone: the retardation functions are ready, compiled functions are loaded. The order that is given is what the vessel needs per
-block. The baseline is the package's own vector fitting (`method="vector", passive=False`) that chooses its order for the same R2: it knows
-nothing of the motion and its models are not passive.
+block. The baseline is the package's own vector fitting (`method="vector", passive=False`) that chooses its order for the same R2:
+it knows nothing of the motion and its models are not passive.
 """
 
 import time
@@ -48,7 +48,8 @@ def of_vessel(name: str) -> list[Measurement]:
     plain, vector = seconds(lambda: og.identify(K, method="vector", passive=False))
     given, fixed = seconds(lambda: og.identify(K, order=ORDER[name], **motion))
     own, chosen = seconds(lambda: og.identify(K, **motion))
-    assert fixed.is_passive and chosen.is_passive
+    assert fixed.is_passive
+    assert chosen.is_passive
     baseline = "vector fitting's time"
     return [
         Measurement(f"{name}: vector fitting, not passive", plain, "s", None, "", f"{vector.order} states"),

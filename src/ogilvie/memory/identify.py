@@ -33,6 +33,7 @@ _FITS_TO: dict[str, tuple[Any, Callable[..., tuple[Trial, Array]]]] = {
     "frequency": (Spectrum, identify_by_frequency),
     "vector": (Spectrum, identify_by_vector_fitting),
 }
+_ROUNDING = 1e-9  # of the largest K of a translation or a rotation
 METHODS = ("oscillators", *_FITS_TO)
 
 
@@ -116,7 +117,8 @@ def identify(
     if not isinstance(K, Retardation):
         raise InputError(f"identify: retardation functions (see retardation) expected, {type(K).__name__} found.")
     check_spectrum(K)
-    blocks = coupled_blocks(K.K)
+    silent = _silent(K)
+    blocks = coupled_blocks(np.where(silent[:, None] | silent, 0.0, K.K))
     if not blocks:
         raise InputError("identify: K is zero; there is no fluid memory to model.")
     m, notes = len(K.dofs), [n for n in K.notes if n.startswith(("damping not positive", "added mass"))]
@@ -136,6 +138,14 @@ def identify(
         warnings.warn(f"identify: {note}", OgilvieWarning, stacklevel=2)
     A, B, C_out = stack_blocks([(dofs, *modal_form(a, b, c)) for dofs, a, b, c in models], m)
     return _reported(StateSpace(A, B, C_out, K.dofs, A_inf=A_inf, method=method, notes=tuple(notes + said)), K)
+
+
+def _silent(K: Retardation) -> Array:
+    """Return the degrees of freedom (m,) that hold rounding only, such as yaw of a body of revolution."""
+    size = np.abs(np.einsum("tii->ti", K.K)).max(axis=0)
+    turns = np.array([dof.endswith(("roll", "pitch", "yaw")) for dof in K.dofs])
+    largest = np.where(turns, size.max(where=turns, initial=0.0), size.max(where=~turns, initial=0.0))
+    return np.asarray(size <= _ROUNDING * largest)
 
 
 def _found(
@@ -174,15 +184,16 @@ def _reported(model: StateSpace, K: Retardation) -> StateSpace:
     K_hat = model.transfer(omega)
     assert model.A_inf is not None
     fitted_A = model.A_inf + K_hat.imag / omega[:, None, None]
+    nothing = _silent(K)[:, None] | _silent(K)
     grid = np.concatenate([[0.0], np.geomspace(0.01 * omega[0], 100 * omega[-1], 4000)])
     return StateSpace(
         model.A,
         model.B,
         model.C,
         model.dofs,
-        r2=r_squared(K.K, model.impulse(K.t)),
-        r2_added_mass=r_squared(A, fitted_A, size=B),
-        r2_damping=r_squared(B, K_hat.real),
+        r2=np.where(nothing, np.nan, r_squared(K.K, model.impulse(K.t))),
+        r2_added_mass=np.where(nothing, np.nan, r_squared(A, fitted_A, size=B)),
+        r2_damping=np.where(nothing, np.nan, r_squared(B, K_hat.real)),
         passivity_margin=smallest_damping(model.transfer(grid)),
         is_passive=is_passive(model.A, model.B, model.C),
         A_inf=model.A_inf,
