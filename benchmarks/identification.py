@@ -1,9 +1,9 @@
 """Time to identify the passive fluid memory of five vessels, beside vector fitting without passivity on the same data.
 
-One thread; processor time, so that what else the machine does counts little. Each figure is the best of a few calls of `identify`
-alone: the retardation functions are ready, compiled functions are loaded. The order that is given is what the vessel needs per
-block. The baseline is the package's own vector fitting (`method="vector", passive=False`) that chooses its order for the same R2:
-it knows nothing of the motion and its models are not passive.
+One thread; processor time, so that what else the machine does counts little. Each figure is the best of a few calls of
+`identify` alone: the retardation functions are ready, compiled functions are loaded. The order that is given is what the vessel
+needs per block. The baseline is the package's own vector fitting (`method="vector", passive=False`), which chooses its order
+for the same R2: it knows nothing of the motion and its models are not passive.
 """
 
 import time

@@ -64,7 +64,7 @@ def run(shared: Path | None) -> tuple[list[dict[str, Any]], dict[str, Any]]:
                 0.0,
                 ALLOWED,
                 unit="%",
-                note=f"in {worst}; aimed at {GOAL:g} %",
+                note=where,
             ),
             _check(f"{name}: passive", float(bool(ssm.is_passive)), 1.0, 0.0),
         ]
