@@ -13,7 +13,7 @@ A, B = (2 + K_HAT.imag / OMEGA)[:, None, None], K_HAT.real[:, None, None]
 
 
 def table(**data):
-    return og.Retardation(T, K_T, np.eye(1), ("heave",), **data)
+    return og.Retardation(T, K_T, 2 * np.eye(1), ("heave",), **data)
 
 
 def spectrum(**change):
@@ -24,8 +24,8 @@ def spectrum(**change):
     ("t", "K", "words"),
     [
         (T, np.where(T[:, None, None] == T[3], np.nan, K_T), "finite"),
-        (np.where(T == T[5], T[5] + 0.01, T), K_T, "uniform"),
-        (np.where(T == T[4], np.nan, T), K_T, "uniform"),
+        (np.where(T[5] == T, T[5] + 0.01, T), K_T, "uniform"),
+        (np.where(T[4] == T, np.nan, T), K_T, "uniform"),
         (T[::-1], K_T, "uniform"),
         (T, K_T[:, 0], "expected"),
     ],

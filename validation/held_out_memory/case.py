@@ -15,8 +15,7 @@ box barge, a deep vertical cylinder and a ship form from its particulars, with t
 restoring. One call each, default settings, nothing changed afterwards. The motion error is the weighted r.m.s. change of the
 motion in an oblique JONSWAP sea whose peak is at the natural frequency of heave, with soft springs in surge, sway and yaw
 (natural frequencies 0.12, 0.12 and 0.15 of that of heave), radiation alone damping it. The 1 % that the vessels of
-`passive_memory` keep is not kept by all of these: roll at its resonance, and surge where the forces of the wave cancel, are the
-worst."""
+`passive_memory` keep is aimed at and not kept by all of these; the figures are as they came out."""
 NEEDS: list[str] = []
 HEIGHT = 6.4
 

@@ -48,10 +48,10 @@ def screen(hydro: "xr.Dataset", mask: Array, *, remove: bool) -> tuple[Array, li
     omega, B = hydro.omega.values, hydro.radiation_damping.values
     if not (np.all(np.isfinite(B)) and np.all(np.isfinite(hydro.added_mass.values)) and np.any(B)):
         return mask, []
-    definite = clean_frequencies(omega, B)
+    waves = radiating(hydro)
+    definite = clean_frequencies(omega, waves.radiation_damping.values)
     notes = [describe(omega, definite | ~mask, removed=remove)]
     good = mask & definite
-    waves = radiating(hydro)
     off = np.zeros(len(omega), dtype=bool)
     if good.sum() >= _FEWEST:
         causal = causality(waves, omega[~good])[0]
