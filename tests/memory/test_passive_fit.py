@@ -44,7 +44,7 @@ def test_resonances_are_where_stiffness_balances_inertia():
 
 
 def test_relative_errors_are_of_damping_and_of_frequency():
-    """An error of K_hat in proportion to B is that share of the damping, less what is uncertain; a real one moves no frequency."""
+    """An error of K_hat in proportion to B is that share of damping, less what is uncertain; it moves no frequency."""
     K = data_of(known())
     r = find_resonances(OMEGA, K.added_mass, K.radiation_damping, 4 * np.eye(2), np.diag([2.0, 3.0]))
     e = r.relative(0.01 * r.B.astype(complex))
