@@ -57,7 +57,12 @@ def test_spectra_that_cannot_be_fitted(method, change, words):
 
 @pytest.mark.parametrize(
     ("change", "words"),
-    [({"r2": "high"}, "number"), ({"order": 2.5}, "whole"), ({"mass": np.eye(1) * np.nan, "stiffness": np.eye(1)}, "finite")],
+    [
+        ({"r2": "high"}, "number"),
+        ({"order": 2.5}, "whole"),
+        ({"mass": np.eye(1) * np.nan, "stiffness": np.eye(1)}, "finite"),
+        ({"mass": np.eye(1)}, "both"),
+    ],
 )
 def test_arguments_that_are_none(change, words):
     with pytest.raises(og.InputError, match=words):

@@ -66,7 +66,8 @@ def identify(
         Coefficient of determination to be reached, 0 < r2 < 1: of A(omega) and B(omega) of each coupling; of K(t) for
         ``realization`` and ``impulse`` as published.
     order : int, optional
-        Number of states of every block, instead of `r2`; passive models have an even number.
+        Number of states of every block, instead of `r2`; passive models have an even number. Where mass and restoring are not
+        given, K(t) then has the largest weight, as far as the data determine it.
     max_order : int
         Largest number of states of the model.
     passive : bool
@@ -74,8 +75,9 @@ def identify(
         fitted to added mass and damping; if not, the methods give what was published: stable, but hardly ever passive. The
         default method is passive either way.
     mass, stiffness : (m, m) array, optional
-        Rigid-body inertia and restoring about O. With them a passive fit is aware of the motion: it weighs what the fit changes
-        in the motion of the free-floating body under unit forces, and grows until that change is small.
+        Rigid-body inertia and restoring about O, both or none. With them a passive fit is aware of the motion: it weighs what
+        the fit changes in the motion of the free-floating body under unit forces, and grows until that change is small; then
+        it aims at damping and frequency of the body's resonances.
 
     Returns
     -------
@@ -85,7 +87,8 @@ def identify(
     Raises
     ------
     InputError
-        Unknown method, r2 outside (0, 1), an order that the method cannot have, K that is zero, matrices of the wrong shape.
+        Unknown method, r2 outside (0, 1), an order that the method cannot have, K that is zero, matrices of the wrong shape,
+        mass without restoring; added mass and damping behind K with NaN, fewer than four or unsorted frequencies.
 
     Warns
     -----
@@ -124,6 +127,8 @@ def identify(
     m, notes = len(K.dofs), [n for n in K.notes if n.startswith(("damping not positive", "added mass"))]
     M = None if mass is None else check_square("mass", mass, m)
     C = None if stiffness is None else check_square("stiffness", stiffness, m)
+    if (M is None) != (C is None):
+        raise InputError("identify: mass and stiffness belong together; give both or none.")
     with library_threads(openmp="math", integrals=1, algebra=1):  # small matrices: threads would only wait for each other
         if method == "oscillators":
             models, A_inf, said = identify_passive(K, blocks, r2=r2, order=order, max_order=max_order, mass=M, stiffness=C)
