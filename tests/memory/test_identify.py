@@ -150,7 +150,10 @@ def test_motion_aware_fit_keeps_the_motion(shared_reference):
 
 
 def test_oscillators_recover_the_exact_hemisphere(shared_reference):
-    """Exact data to Ka = 30: four states give R2 of A and B above 0.998, six give K itself to R2 = 0.999, passive."""
+    """Exact data to Ka = 30: four states give K to R2 = 0.9995 in heave, 0.999 in surge, six to 0.9999; passive.
+
+    The best that four states of this form can do (direct search with the exact K from 50 starts) is 0.99977 and 0.99910.
+    """
     rows = [x.split(",") for x in (shared_reference / "hemisphere_exact.csv").read_text().splitlines() if x[:1].isdigit()]
     d = np.array(rows, dtype=float)
     rows = [x.split(",") for x in (shared_reference / "hemisphere_K.csv").read_text().splitlines() if x[:1].isdigit()]
@@ -167,10 +170,12 @@ def test_oscillators_recover_the_exact_hemisphere(shared_reference):
         K = og.retardation(h)
         four, six = og.identify(K, order=4), og.identify(K, order=6)
         assert (four.order, four.is_passive, six.order, six.is_passive) == (4, True, 6, True)
-        assert min(four.r2_added_mass[0, 0], four.r2_damping[0, 0]) > 0.998
-        fit = six.impulse(exact[:, 0])[:, 0, 0]
-        r2 = 1 - ((fit - exact[:, column]) ** 2).sum() / ((exact[:, column] - exact[:, column].mean()) ** 2).sum()
-        assert r2 > 0.999
+        assert min(four.r2_added_mass[0, 0], four.r2_damping[0, 0]) > 0.996
+        for model, least in ((four, {"heave": 0.9995, "surge": 0.999}[dof]), (six, 0.9999)):
+            fit = model.impulse(exact[:, 0])[:, 0, 0]
+            r2 = 1 - ((fit - exact[:, column]) ** 2).sum() / ((exact[:, column] - exact[:, column].mean()) ** 2).sum()
+            assert r2 > least
+            assert model.r2[0, 0] > least
 
 
 def test_derivatives_of_the_oscillator_form():

@@ -121,7 +121,7 @@ class WaveExcitation:
                 f"WaveExcitation: frequencies within {lo:.4g}..{hi:.4g} rad/s expected, {w.min():.4g}..{w.max():.4g} found."
             )
         w, U = np.clip(w, lo, hi), self._own_speed if speed is None else speed
-        if self._speeds is None or (speed is None and self._own_speed == U):
+        if self._speeds is None or self._own_speed == U:
             return self._table.at(w, b)
         return self._speeds.force(w, b, U)
 

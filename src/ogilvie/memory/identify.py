@@ -12,8 +12,9 @@ from ogilvie.hydro.threads import library_threads
 from ogilvie.memory.blocks import coupled_blocks, r_squared
 from ogilvie.memory.common_poles import condense
 from ogilvie.memory.frequency import identify_by_frequency
-from ogilvie.memory.passive import check_square, identify_passive, radiation_data
+from ogilvie.memory.passive import check_square, identify_passive
 from ogilvie.memory.passive_start import identify_passive_from
+from ogilvie.memory.passive_target import check_spectrum, radiation_data
 from ogilvie.memory.passivity import is_passive, smallest_damping
 from ogilvie.memory.prony import identify_by_prony
 from ogilvie.memory.raise_order import shortfall
@@ -32,6 +33,7 @@ _FITS_TO: dict[str, tuple[Any, Callable[..., tuple[Trial, Array]]]] = {
     "frequency": (Spectrum, identify_by_frequency),
     "vector": (Spectrum, identify_by_vector_fitting),
 }
+_ROUNDING = 1e-9  # of the largest K of a translation or a rotation
 METHODS = ("oscillators", *_FITS_TO)
 
 
@@ -64,7 +66,8 @@ def identify(
         Coefficient of determination to be reached, 0 < r2 < 1: of A(omega) and B(omega) of each coupling; of K(t) for
         ``realization`` and ``impulse`` as published.
     order : int, optional
-        Number of states of every block, instead of `r2`; passive models have an even number.
+        Number of states of every block, instead of `r2`; passive models have an even number. Where mass and restoring are not
+        given, K(t) then has the largest weight, as far as the data determine it.
     max_order : int
         Largest number of states of the model.
     passive : bool
@@ -72,8 +75,9 @@ def identify(
         fitted to added mass and damping; if not, the methods give what was published: stable, but hardly ever passive. The
         default method is passive either way.
     mass, stiffness : (m, m) array, optional
-        Rigid-body inertia and restoring about O. With them a passive fit is aware of the motion: it weighs what the fit changes
-        in the motion of the free-floating body under unit forces, and grows until that change is small.
+        Rigid-body inertia and restoring about O, both or none. With them a passive fit is aware of the motion: it weighs what
+        the fit changes in the motion of the free-floating body under unit forces, and grows until that change is small; then
+        it aims at damping and frequency of the body's resonances.
 
     Returns
     -------
@@ -83,7 +87,8 @@ def identify(
     Raises
     ------
     InputError
-        Unknown method, r2 outside (0, 1), an order that the method cannot have, K that is zero, matrices of the wrong shape.
+        Unknown method, r2 outside (0, 1), an order that the method cannot have, K that is zero, matrices of the wrong shape,
+        mass without restoring; added mass and damping behind K with NaN, fewer than four or unsorted frequencies.
 
     Warns
     -----
@@ -112,12 +117,18 @@ def identify(
     (2, True, True, True)
     """
     _check_arguments(method, r2, order, max_order)
-    blocks = coupled_blocks(K.K)
+    if not isinstance(K, Retardation):
+        raise InputError(f"identify: retardation functions (see retardation) expected, {type(K).__name__} found.")
+    check_spectrum(K)
+    silent = _silent(K)
+    blocks = coupled_blocks(np.where(silent[:, None] | silent, 0.0, K.K))
     if not blocks:
         raise InputError("identify: K is zero; there is no fluid memory to model.")
-    m, notes = len(K.dofs), [n for n in K.notes if n.startswith("damping not positive")]
+    m, notes = len(K.dofs), [n for n in K.notes if n.startswith(("damping not positive", "added mass"))]
     M = None if mass is None else check_square("mass", mass, m)
     C = None if stiffness is None else check_square("stiffness", stiffness, m)
+    if (M is None) != (C is None):
+        raise InputError("identify: mass and stiffness belong together; give both or none.")
     with library_threads(openmp="math", integrals=1, algebra=1):  # small matrices: threads would only wait for each other
         if method == "oscillators":
             models, A_inf, said = identify_passive(K, blocks, r2=r2, order=order, max_order=max_order, mass=M, stiffness=C)
@@ -132,6 +143,14 @@ def identify(
         warnings.warn(f"identify: {note}", OgilvieWarning, stacklevel=2)
     A, B, C_out = stack_blocks([(dofs, *modal_form(a, b, c)) for dofs, a, b, c in models], m)
     return _reported(StateSpace(A, B, C_out, K.dofs, A_inf=A_inf, method=method, notes=tuple(notes + said)), K)
+
+
+def _silent(K: Retardation) -> Array:
+    """Return the degrees of freedom (m,) that hold rounding only, such as yaw of a body of revolution."""
+    size = np.abs(np.einsum("tii->ti", K.K)).max(axis=0)
+    turns = np.array([dof.endswith(("roll", "pitch", "yaw")) for dof in K.dofs])
+    largest = np.where(turns, size.max(where=turns, initial=0.0), size.max(where=~turns, initial=0.0))
+    return np.asarray(size <= _ROUNDING * largest)
 
 
 def _found(
@@ -170,15 +189,16 @@ def _reported(model: StateSpace, K: Retardation) -> StateSpace:
     K_hat = model.transfer(omega)
     assert model.A_inf is not None
     fitted_A = model.A_inf + K_hat.imag / omega[:, None, None]
+    nothing = _silent(K)[:, None] | _silent(K)
     grid = np.concatenate([[0.0], np.geomspace(0.01 * omega[0], 100 * omega[-1], 4000)])
     return StateSpace(
         model.A,
         model.B,
         model.C,
         model.dofs,
-        r2=r_squared(K.K, model.impulse(K.t)),
-        r2_added_mass=r_squared(A, fitted_A, size=B),
-        r2_damping=r_squared(B, K_hat.real),
+        r2=np.where(nothing, np.nan, r_squared(K.K, model.impulse(K.t))),
+        r2_added_mass=np.where(nothing, np.nan, r_squared(A, fitted_A, size=B)),
+        r2_damping=np.where(nothing, np.nan, r_squared(B, K_hat.real)),
         passivity_margin=smallest_damping(model.transfer(grid)),
         is_passive=is_passive(model.A, model.B, model.C),
         A_inf=model.A_inf,
@@ -190,9 +210,12 @@ def _reported(model: StateSpace, K: Retardation) -> StateSpace:
 def _check_arguments(method: str, r2: float, order: int | None, max_order: int) -> None:
     if method not in METHODS:
         raise InputError(f"method: one of {METHODS} expected, {method!r} found.")
+    for name, value in (("r2", r2), ("order", order), ("max_order", max_order)):
+        if not (value is None and name == "order") and not isinstance(value, int | float | np.number):
+            raise InputError(f"{name}: a number expected, {value!r} found.")
     if not 0.0 < r2 < 1.0:
         raise InputError(f"r2: a number between 0 and 1 (0.99, say) expected, {r2!r} found.")
-    if order is not None and order < 1:
-        raise InputError(f"order: a positive number of states expected, {order!r} found.")
+    if order is not None and (order < 1 or order != int(order)):
+        raise InputError(f"order: a positive whole number of states expected, {order!r} found.")
     if max_order < 1:
         raise InputError(f"max_order: a positive number of states expected, {max_order!r} found.")

@@ -9,19 +9,23 @@ from numpy.typing import NDArray
 
 from ogilvie.errors import InputError
 from ogilvie.memory.oscillators import state_space
-from ogilvie.memory.passive_fit import Fit, Target, grow, optimise
+from ogilvie.memory.passive_fit import Fit
+from ogilvie.memory.passive_grow import QUICK, grow, optimise
+from ogilvie.memory.passive_target import target_of
 from ogilvie.memory.retardation import Retardation
 
 Array = NDArray[Any]
 
 MOTION_TOLERANCE = 0.0066  # change of the motion under unit forces at which the order is high enough
-_LOSS = 0.01  # of inertia and stiffness in the compliance
+_MEMORY_WEIGHT = 0.5  # of K(t) where its tail is known and added mass and damping have a goal
+_MEMORY_WEIGHT_ALONE = 20.0  # of K(t) where its tail is known and the order is given, so that nothing else has
+RESONANCE_TOLERANCE = 0.1  # relative error of the damping at a resonance at which it is so
+_HALVINGS = 4  # times that the weight of the resonances may be halved for the sake of the rest
 _STUCK = 3  # oscillators without progress after which a coupling is said to fit no causal model
-_ZERO = 1e-3  # of sqrt(spread_ii spread_jj): a coupling below it is zero by symmetry
 
 
 @dataclass(eq=False)
-class _Block:
+class Block:
     """State of the growth of one block; the only mutable thing here."""
 
     dofs: list[int]
@@ -31,13 +35,22 @@ class _Block:
     scores: list[float]
     waived: Array
     motion_limit: float = MOTION_TOLERANCE
+    resonance_limit: float = RESONANCE_TOLERANCE
 
-    def criteria(self, r2: float) -> tuple[float, float]:
-        """Worst coupling and motion, as multiples of what is allowed."""
+    @classmethod
+    def of(cls, K: Retardation, dofs: list[int], mass: Array | None, stiffness: Array | None) -> "Block":
+        """Return the block of these degrees of freedom without oscillators."""
+        target, scale = target_of(K, dofs, mass, stiffness)
+        fit = Fit(target)
+        return cls(dofs, fit, scale, np.zeros(fit.n_inf), [], target.weight == 0.0)
+
+    def criteria(self, r2: float) -> tuple[float, float, float]:
+        """Worst coupling, motion and resonance, as multiples of what is allowed."""
         lost = 1 - np.fmin(*self.fit.r2(self.p))
         lost = np.where(self.waived, np.nan, lost)
         coupling = float(np.nanmax(lost)) / (1 - r2) if np.any(np.isfinite(lost)) else 0.0
-        return coupling, float(self.fit.motion_change(self.p).max()) / self.motion_limit
+        motion = float(self.fit.motion_change(self.p).max()) / self.motion_limit
+        return coupling, motion, self.fit.resonance_error(self.p) / self.resonance_limit
 
 
 def identify_passive(
@@ -66,22 +79,29 @@ def identify_passive(
     mass, stiffness : (m, m) array, optional
         Of the vessel; the fit then weighs the change of its motion.
     """
-    omega, A, B = radiation_data(K)
-    state = [_prepare(K, omega, A, B, dofs, mass, stiffness) for dofs in blocks]
+    state = [Block.of(K, dofs, mass, stiffness) for dofs in blocks]
     notes: list[str] = []
     if order is not None:
         for block in state:
             while 2 * block.fit.oscillators(block.p) < order:
-                block.p, _ = grow(block.fit, block.p)
+                block.p, _ = grow(block.fit, block.p, rounds=QUICK)
     else:
-        _grow_until(state, r2, max_order, K.dofs, notes)
-    return *polished(state, K), notes
+        grow_until(state, r2, max_order, K.dofs, notes)
+    return *polished(state, K, r2, order), notes
 
 
-def polished(blocks: list[_Block], K: Retardation) -> tuple[list[tuple[list[int], Array, Array, Array]], Array]:
-    """Return the models of the blocks [(dofs, A, B, C)] after a last descent, and A_inf (m, m), in SI."""
+def polished(
+    blocks: list[Block], K: Retardation, r2: float, order: int | None
+) -> tuple[list[tuple[list[int], Array, Array, Array]], Array]:
+    """Return the models of the blocks [(dofs, A, B, C)] after a last descent, and A_inf (m, m), in SI.
+
+    Where the order is given, and added mass and damping have no goal, K(t) now has the largest weight.
+    """
     models, A_inf = [], np.array(K.A_inf)
     for block in blocks:
+        _aim(block, r2)
+        if order is not None:
+            block.fit.weigh_memory(_MEMORY_WEIGHT_ALONE)
         block.p, _ = optimise(block.fit, block.p, 80)
         n = block.fit.oscillators(block.p)
         a, b, c = state_space(block.p[block.fit.n_inf :], n, len(block.dofs), block.fit.r)
@@ -91,61 +111,18 @@ def polished(blocks: list[_Block], K: Retardation) -> tuple[list[tuple[list[int]
     return models, A_inf
 
 
-def radiation_data(K: Retardation) -> tuple[Array, Array, Array]:
-    """Return frequencies, added mass and damping to be fitted: the data that K was made from, or the transform of K itself."""
-    if K.omega is not None and K.added_mass is not None and K.radiation_damping is not None:
-        mask = np.ones(len(K.omega), dtype=bool) if K.mask is None else K.mask
-        return K.omega[mask], _symmetric(K.added_mass[mask]), _symmetric(K.radiation_damping[mask])
-    size = np.abs(np.einsum("tii->ti", K.transform(np.linspace(0.0, np.pi / K.dt / 4, 400))))
-    alive = np.flatnonzero((size > 0.02 * size.max(axis=0)).any(axis=1))
-    omega = np.linspace(0.0, np.pi / K.dt / 4, 400)[: alive[-1] + 2][1:]
-    omega = np.linspace(omega[-1] / 80, omega[-1], 80)
-    K_hat = K.transform(omega)
-    return omega, _symmetric(K.A_inf + K_hat.imag / omega[:, None, None]), _symmetric(K_hat.real)
-
-
-def _symmetric(x: Array) -> Array:
-    """Radiation is reciprocal at zero speed; what differs between ij and ji is error of the panel method."""
-    return (x + np.swapaxes(x, -1, -2)) / 2
-
-
-def _prepare(
-    K: Retardation, omega: Array, A: Array, B: Array, dofs: list[int], mass: Array | None, stiffness: Array | None
-) -> _Block:
-    where = np.ix_(dofs, dofs)
-    a, b = A[:, dofs][:, :, dofs], B[:, dofs][:, :, dofs]
-    weigh = np.diag(mass[where]) if mass is not None else np.zeros(len(dofs))
-    scale = np.sqrt(weigh + np.abs(np.einsum("wii->i", a)) / len(omega))
-    square = np.outer(scale, scale)
-    a, b = a / square, b / square
-    spread = np.maximum(b.std(axis=0), 1e-300)
-    weight = (spread > _ZERO * np.sqrt(np.outer(np.diag(spread), np.diag(spread)))).astype(float)
-    compliance = None
-    if mass is not None and stiffness is not None:
-        compliance = _compliance(omega, mass[where] / square + a, b, stiffness[where] / square)
-    A_inf = _symmetric(K.A_inf[where]) / square
-    fit = Fit(Target(omega, a, b, A_inf, K.A_inf_given, weight, _symmetric(K.K[0][where]) / square, compliance))
-    return _Block(dofs, fit, scale, np.zeros(fit.n_inf), [], weight == 0.0)
-
-
-def _compliance(omega: Array, M: Array, B: Array, C: Array) -> Array:
-    """X (n_w, m, m) of the floating body; a loss of 1 % of inertia and stiffness keeps one resonance from ruling the fit."""
-    w = omega[:, None, None]
-    loss = np.zeros_like(M)
-    i = np.arange(len(C))
-    loss[:, i, i] = _LOSS * (np.abs(np.diag(C)) + omega[:, None] ** 2 * np.abs(M[:, i, i]))
-    return np.linalg.inv(-(w**2) * M + 1j * (w * B + loss) + C)
-
-
-def _grow_until(blocks: list[_Block], r2: float, max_order: int, names: tuple[str, ...], notes: list[str]) -> None:
+def grow_until(blocks: list[Block], r2: float, max_order: int, names: tuple[str, ...], notes: list[str]) -> None:
     """Let the worst block grow until every block is good enough, stuck, or the order is used up."""
     for block in blocks:
+        block.fit.weigh_memory(_MEMORY_WEIGHT)
         block.p, _ = grow(block.fit, block.p)
     while sum(2 * b.fit.oscillators(b.p) for b in blocks) < max_order:
         scores = [max(b.criteria(r2)) for b in blocks]
         worst = int(np.argmax(scores))
         if scores[worst] <= 1.0:
-            return
+            if not any([_aim(block, r2) for block in blocks]):
+                return
+            continue
         block = blocks[worst]
         block.scores.append(scores[worst])
         if len(block.scores) > _STUCK and scores[worst] > 0.8 * block.scores[-1 - _STUCK]:
@@ -158,10 +135,27 @@ def _grow_until(blocks: list[_Block], r2: float, max_order: int, names: tuple[st
         notes.append(f"order limit {max_order} reached before R2 {r2:g} or the motion tolerance in {', '.join(low)}.")
 
 
-def _waive(block: _Block, r2: float, names: tuple[str, ...], notes: list[str]) -> None:
+def _aim(block: Block, r2: float) -> bool:
+    """Let the block aim at the resonances too, as far as the rest stays as good as it must; return whether that is new."""
+    allowed, start = max(1.0, 1.05 * max(block.criteria(r2))), block.p
+    if not block.fit.aim_at_resonances():
+        return False
+    block.scores.clear()
+    for _ in range(_HALVINGS):
+        block.p, _ = optimise(block.fit, start, 80)
+        if max(block.criteria(r2)[:2]) <= allowed:
+            break
+        block.fit.resonance_weight /= 2
+    return True
+
+
+def _waive(block: Block, r2: float, names: tuple[str, ...], notes: list[str]) -> None:
     """Stop waiting for the coupling that no longer improves, and say so; for the motion, accept what is reached."""
-    coupling, motion = block.criteria(r2)
-    if coupling >= motion:
+    coupling, motion, resonance = block.criteria(r2)
+    if resonance >= max(coupling, motion):
+        block.resonance_limit *= resonance
+        notes.append(f"damping at a resonance of {', '.join(names[i] for i in block.dofs)} is {block.resonance_limit:.1%} off.")
+    elif coupling >= motion:
         reached = np.where(block.waived, np.inf, np.fmin(*block.fit.r2(block.p)))
         i, j = np.unravel_index(int(np.nanargmin(reached)), reached.shape)
         block.waived[i, j] = block.waived[j, i] = True

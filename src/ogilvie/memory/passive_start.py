@@ -5,8 +5,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ogilvie.memory.passive import _Block, _grow_until, _prepare, polished, radiation_data
-from ogilvie.memory.passive_fit import Fit, grow, optimise
+from ogilvie.memory.passive import Block, grow_until, polished
+from ogilvie.memory.passive_fit import Fit
+from ogilvie.memory.passive_grow import grow, optimise
 from ogilvie.memory.retardation import Retardation
 
 Array = NDArray[Any]
@@ -34,14 +35,13 @@ def identify_passive_from(
         Of each block, 1/s. Pairs that the goal does not need are left out; where they do not suffice, oscillators are added
         as in :func:`ogilvie.memory.passive.identify_passive`, whose other parameters are the same.
     """
-    omega, A, B = radiation_data(K)
-    state = [_prepare(K, omega, A, B, dofs, mass, stiffness) for dofs in blocks]
+    state = [Block.of(K, dofs, mass, stiffness) for dofs in blocks]
     notes: list[str] = []
     for block, pool in zip(state, poles, strict=True):
         _use(block, pool, r2, order, max(2, max_order * len(block.dofs) // sum(map(len, blocks))))
     if order is None:
         _fill_up(state, r2, max_order, K.dofs, notes)
-    return *polished(state, K), notes
+    return *polished(state, K, r2, order), notes
 
 
 def oscillators_of(poles: Array) -> tuple[Array, Array]:
@@ -62,7 +62,7 @@ def oscillators_of(poles: Array) -> tuple[Array, Array]:
     return w[order], damping[order]
 
 
-def _use(block: _Block, poles: Array, r2: float, order: int | None, share: int) -> None:
+def _use(block: Block, poles: Array, r2: float, order: int | None, share: int) -> None:
     """Add oscillators with these poles, the most helpful first, until the goal or the order is reached or none is left."""
     w, damping = oscillators_of(poles)
     left = np.ones(len(w), dtype=bool)
@@ -78,13 +78,13 @@ def _use(block: _Block, poles: Array, r2: float, order: int | None, share: int) 
         block.p, _ = grow(block.fit, block.p)
 
 
-def _fill_up(state: list[_Block], r2: float, max_order: int, names: tuple[str, ...], notes: list[str]) -> None:
+def _fill_up(state: list[Block], r2: float, max_order: int, names: tuple[str, ...], notes: list[str]) -> None:
     """Add oscillators to the blocks that are not good enough yet, as far as the order allows."""
     poor = [b for b in state if max(b.criteria(r2)) > 1.0]
     used = sum(2 * b.fit.oscillators(b.p) for b in state)
     if poor and used + 2 * len(poor) <= max_order:
         good = sum(2 * b.fit.oscillators(b.p) for b in state if b not in poor)
-        _grow_until(poor, r2, max_order - good, names, notes)
+        grow_until(poor, r2, max_order - good, names, notes)
     elif poor:
         low = ", ".join(names[i] for b in poor for i in b.dofs)
         notes.append(f"order limit {max_order} reached before R2 {r2:g} or the motion tolerance in {low}.")
@@ -93,7 +93,7 @@ def _fill_up(state: list[_Block], r2: float, max_order: int, names: tuple[str, .
 def _starts(fit: Fit, p: Array, w: Array, damping: Array, left: Array) -> list[tuple[Array, int]]:
     """Parameters with one of the oscillators added on one of the dampers, where damping is missing; best first."""
     omega, n, m, r = fit.target.omega, fit.oscillators(p), fit.m, fit.r
-    missing = (fit.data - fit.model(p) - 1j * omega[:, None, None] * fit.correction(p)).real
+    missing = -fit.error(p)[: len(omega)].real
     x, b, D = np.split(p[fit.n_inf :], [n, n + n * m])
     found = []
     for k in np.flatnonzero(left):

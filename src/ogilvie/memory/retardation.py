@@ -14,7 +14,7 @@ from ogilvie.memory.from_damping import kernel_from_damping
 from ogilvie.memory.from_samples import equidistant_step, kernel_by_ifft, kernel_by_trapezoid
 from ogilvie.memory.infinite import infinite_added_mass
 from ogilvie.memory.kernel_errors import Doubts, doubts_of, other_interpolation
-from ogilvie.memory.screening import clean_frequencies, describe
+from ogilvie.memory.screening import screen
 from ogilvie.memory.table import Retardation
 from ogilvie.memory.times import time_table
 
@@ -62,8 +62,8 @@ def retardation(
     interpolation : {"spline", "linear"}
         Between the frequencies, integrated exactly either way.
     frequencies : {"clean", "all"} or (n_w,) bool array
-        ``clean`` leaves out those whose damping matrix is not positive semi-definite (irregular frequencies) and says which;
-        see :mod:`ogilvie.memory.screening`.
+        ``clean`` leaves out those whose damping matrix is not positive semi-definite (irregular frequencies) or whose added
+        mass contradicts damping, and says which; see :func:`ogilvie.memory.screening.screen`.
 
     Returns
     -------
@@ -104,13 +104,12 @@ def retardation(
     route = _route(method, interpolation)
     hydro, taken_off = _at_rest(hydro)
     omega_all, A_all, B_all = _data(hydro)
-    mask = _mask(frequencies, omega_all, B_all)
+    clean = isinstance(frequencies, str) and frequencies == "clean"
+    mask, screened = screen(hydro, _mask(frequencies, omega_all), remove=clean)
     _check_data(omega_all[mask], B_all[mask], duration, dt)
     dofs = tuple(str(d) for d in hydro.influenced_dof.values)
     curves, notes = continued(omega_all[mask], A_all[mask], B_all[mask], dofs, tail)
-    notes[:0] = taken_off
-    if left_out := describe(omega_all, mask):
-        notes.insert(0, left_out)
+    notes = [*screened, *taken_off, *notes]
     horizon = np.pi / curves.energetic_step()
     t = time_table(curves, duration, dt, horizon, interpolation)
     K_damping = kernel_from_damping(curves, None, t, interpolation)
@@ -195,12 +194,11 @@ def _data(hydro: "xr.Dataset") -> tuple[Array, Array, Array]:
     return values
 
 
-def _mask(frequencies: str | ArrayLike, omega: Array, B: Array) -> Array:
+def _mask(frequencies: str | ArrayLike, omega: Array) -> Array:
     if isinstance(frequencies, str):
         if frequencies not in ("clean", "all"):
             raise InputError(f"frequencies: 'clean', 'all' or a mask expected, {frequencies!r} found.")
-        finite = np.all(np.isfinite(B))
-        return clean_frequencies(omega, B) if frequencies == "clean" and finite else np.ones(len(omega), dtype=bool)
+        return np.ones(len(omega), dtype=bool)
     mask = np.asarray(frequencies)
     if mask.shape != omega.shape or mask.dtype != bool:
         raise InputError(f"frequencies: a mask of {len(omega)} booleans expected, {mask.dtype} of shape {mask.shape} found.")

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ogilvie.memory.blocks import negligible, r_squared
-from ogilvie.memory.passive import radiation_data
+from ogilvie.memory.passive_target import radiation_data
 from ogilvie.memory.retardation import Retardation
 from ogilvie.memory.statespace import StateSpace
 
