@@ -254,3 +254,15 @@ def test_bad_arguments(change, words):
 def test_zero_k_is_refused():
     with pytest.raises(og.InputError, match="no fluid memory"):
         og.identify(table(lambda t: np.zeros((len(t), 1, 1)), ("heave",)))
+
+
+def test_motion_change_is_printed_where_the_vessel_is_known():
+    w = np.linspace(0.05, 4.0, 80)
+    K_hat = 1j * w / ((1j * w + 0.4) ** 2 + 1) + 0.5j * w / ((1j * w + 0.3) ** 2 + 3)
+    A, B = (2 + K_hat.imag / w)[:, None, None], K_hat.real[:, None, None]
+    K = og.retardation(og.hydro_from_arrays(omega=w, added_mass=A, radiation_damping=B, dofs=("heave",)))
+    with_vessel = og.identify(K, mass=np.eye(1), stiffness=4 * np.eye(1))
+    assert with_vessel.motion_change.shape == (1,)
+    assert 0.0 < with_vessel.motion_change[0] < 0.01
+    assert "under unit forces changes by at most" in str(with_vessel)
+    assert og.identify(K).motion_change is None

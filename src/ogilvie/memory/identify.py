@@ -2,6 +2,7 @@
 
 import warnings
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from ogilvie.hydro.threads import library_threads
 from ogilvie.memory.blocks import coupled_blocks, r_squared
 from ogilvie.memory.common_poles import condense
 from ogilvie.memory.frequency import identify_by_frequency
+from ogilvie.memory.motion import motion_change
 from ogilvie.memory.passive import check_square, identify_passive
 from ogilvie.memory.passive_start import identify_passive_from
 from ogilvie.memory.passive_target import check_spectrum, radiation_data
@@ -142,7 +144,8 @@ def identify(
     for note in said:
         warnings.warn(f"identify: {note}", OgilvieWarning, stacklevel=2)
     A, B, C_out = stack_blocks([(dofs, *modal_form(a, b, c)) for dofs, a, b, c in models], m)
-    return _reported(StateSpace(A, B, C_out, K.dofs, A_inf=A_inf, method=method, notes=tuple(notes + said)), K)
+    model = StateSpace(A, B, C_out, K.dofs, A_inf=A_inf, method=method, notes=tuple(notes + said))
+    return _reported(model, K, M, C)
 
 
 def _silent(K: Retardation) -> Array:
@@ -183,7 +186,7 @@ def _as_published(
     return models, A_inf, notes
 
 
-def _reported(model: StateSpace, K: Retardation) -> StateSpace:
+def _reported(model: StateSpace, K: Retardation, mass: Array | None, stiffness: Array | None) -> StateSpace:
     """Return the model with its figures of merit."""
     omega, A, B = radiation_data(K)
     K_hat = model.transfer(omega)
@@ -191,19 +194,17 @@ def _reported(model: StateSpace, K: Retardation) -> StateSpace:
     fitted_A = model.A_inf + K_hat.imag / omega[:, None, None]
     nothing = _silent(K)[:, None] | _silent(K)
     grid = np.concatenate([[0.0], np.geomspace(0.01 * omega[0], 100 * omega[-1], 4000)])
-    return StateSpace(
-        model.A,
-        model.B,
-        model.C,
-        model.dofs,
+    change = None
+    if mass is not None and stiffness is not None:
+        change = motion_change(omega, A, B, fitted_A, K_hat.real, mass, stiffness)
+    return replace(
+        model,
         r2=np.where(nothing, np.nan, r_squared(K.K, model.impulse(K.t))),
         r2_added_mass=np.where(nothing, np.nan, r_squared(A, fitted_A, size=B)),
         r2_damping=np.where(nothing, np.nan, r_squared(B, K_hat.real)),
         passivity_margin=smallest_damping(model.transfer(grid)),
         is_passive=is_passive(model.A, model.B, model.C),
-        A_inf=model.A_inf,
-        method=model.method,
-        notes=model.notes,
+        motion_change=change,
     )
 
 

@@ -82,7 +82,7 @@ def target_of(
     compliance, resonances, beyond = None, None, None
     if mass is not None and stiffness is not None:
         M, C = mass[where] / square, stiffness[where] / square
-        compliance, resonances = _compliance(omega, M + a, b, C), find_resonances(omega, a, b, M, C)
+        compliance, resonances = floating_compliance(omega, M + a, b, C), find_resonances(omega, a, b, M, C)
     else:
         beyond = _beyond(K, omega, b, where, square, weight > 0)
     return Target(omega, a, b, A_inf, K.A_inf_given, weight, K_initial, compliance, resonances, beyond), scale
@@ -139,8 +139,11 @@ def _beyond(K: Retardation, omega: Array, B: Array, where: Any, square: Array, u
     return Beyond(at, _symmetric(K.transform(at))[(slice(None), *where)] / square, trust)
 
 
-def _compliance(omega: Array, M: Array, B: Array, C: Array) -> Array:
-    """X (n_w, m, m) of the floating body; a loss of 1 % of inertia and stiffness keeps one resonance from ruling the fit."""
+def floating_compliance(omega: Array, M: Array, B: Array, C: Array) -> Array:
+    """Return X (n_w, m, m) of a floating body, M with added mass (n_w, m, m).
+
+    A loss of 1 % of inertia and stiffness keeps one resonance from ruling the fit.
+    """
     w = omega[:, None, None]
     loss = np.zeros_like(M)
     i = np.arange(len(C))

@@ -35,6 +35,9 @@ class StateSpace:
         model (reached at zero frequency), negative where the model feeds energy into the vessel.
     is_passive : bool
         Certified at all frequencies by the Hamiltonian matrix, to 1e-6 of that scale.
+    motion_change : (m,) array, optional
+        Relative change of the motion of the free-floating body under unit forces, see
+        :func:`ogilvie.memory.motion.motion_change`; where mass and restoring were given.
     A_inf : (m, m) array, optional
         Added mass at infinite frequency that goes with the model, SI.
     method : str
@@ -52,6 +55,7 @@ class StateSpace:
     r2_damping: Array | None = None
     passivity_margin: float | None = None
     is_passive: bool | None = None
+    motion_change: Array | None = None
     A_inf: Array | None = None
     method: str = "given"
     notes: tuple[str, ...] = field(default=())
@@ -107,6 +111,12 @@ class StateSpace:
         if self.is_passive is not None:
             verdict = "passive at all frequencies" if self.is_passive else "NOT passive"
             lines.append(f"{verdict}; smallest scaled eigenvalue of Re K_hat {self.passivity_margin:.2g}")
+        if self.motion_change is not None:
+            worst = int(np.argmax(self.motion_change))
+            lines.append(
+                f"motion of the floating body under unit forces changes by at most {self.motion_change[worst]:.2%} "
+                f"({self.dofs[worst]})"
+            )
         for name, r2 in (("K", self.r2), ("A", self.r2_added_mass), ("B", self.r2_damping)):
             if r2 is not None:
                 lines.append(f"R2 of {name} " + "".join(f"{d:>9}" for d in self.dofs))
