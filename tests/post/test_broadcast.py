@@ -225,20 +225,17 @@ def test_the_course_is_where_the_position_goes(x_axis):
 # the steady frame
 
 
-def test_steady_frame_is_kinematics():
-    """The pose's rate is R v, T omega, at finite angles: from states before and after."""
-    frame, rates, h = SteadyFrame(speed=7.0, heading=2.0), np.array([0.3, -0.2, 0.5, 0.04, -0.06, 0.05]), 1e-5
-    eta = np.array([1.0, 2.0, 0.5, 0.2, -0.1, 0.3])
-    before, now, after = (frame.in_world(og.State(eta + s * h * rates, rates, time=30.0 + s * h)) for s in (-1, 0, 1))
+@pytest.mark.parametrize("size", [1e-3, 1e-4])
+def test_steady_frame_is_kinematics_to_first_order(size):
+    """The rate of the pose is R v, T omega but for squares of the motion, with xi' = nu + U (0, psi, -theta, 0, 0, 0)."""
+    U, h = 7.0, 1e-5
+    frame = SteadyFrame(speed=U, heading=2.0)
+    eta, nu = size * np.array([1.0, 2.0, 0.5, 0.2, -0.1, 0.3]), size * np.array([0.3, -0.2, 0.5, 0.04, -0.06, 0.05])
+    rates = nu + U * np.array([0.0, eta[5], -eta[4], 0.0, 0.0, 0.0])
+    before, now, after = (frame.in_world(og.State(eta + s * h * rates, nu, time=30.0 + s * h)) for s in (-1, 0, 1))
     rate = (after.eta - before.eta) / (2 * h)
-    assert rate[:3] == pytest.approx(rotation_matrix(*now.eta[3:]) @ now.nu[:3], abs=1e-7)
-    assert rate[3:] == pytest.approx(euler_rate_matrix(*now.eta[3:5]) @ now.nu[3:], abs=1e-8)
-
-
-def test_steady_frame_to_first_order():
-    small = 1e-5 * np.array([1.0, -2.0, 3.0, 2.0, 1.0, -1.0])
-    found = SteadyFrame(speed=5.0).in_world(og.State(small, 2 * small))
-    assert found.nu == pytest.approx(2 * small + [5.0, -5.0 * small[5], 5.0 * small[4], 0, 0, 0], abs=1e-8)
+    assert rate[:3] == pytest.approx(rotation_matrix(*now.eta[3:]) @ now.nu[:3], abs=5 * size**2 + 1e-9)
+    assert rate[3:] == pytest.approx(euler_rate_matrix(*now.eta[3:5]) @ now.nu[3:], abs=5 * size**2 + 1e-9)
 
 
 def test_a_frame_at_rest_changes_no_pose():

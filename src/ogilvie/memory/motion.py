@@ -25,9 +25,9 @@ def motion_change(omega: Array, A: Array, B: Array, A_fit: Array, B_fit: Array, 
 
     Notes
     -----
-    With X the compliance of the floating body (and a loss of 1 % of inertia and stiffness, so that a resonance on a frequency of
-    the data does not decide alone) for the data and X_fit for the model, and forces per root of the inertia of their degree of
-    freedom: root mean square over the frequencies of |X_fit - X| over |X|, both summed over the forces.
+    With X the compliance of the floating body (and a loss of 1 % of inertia and stiffness, so that a resonance on a frequency
+    of the data does not decide alone) for the data and X_fit for the model, and forces per root of the inertia of their degree
+    of freedom: root mean square over the frequencies of |X_fit - X| over |X|, both summed over the forces.
 
     Examples
     --------
