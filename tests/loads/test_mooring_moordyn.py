@@ -270,3 +270,27 @@ def test_moordyn_refuses_a_file_that_is_none(chains):
     chains.write_text("hello\n")
     with pytest.raises(InputError, match="coupled points alone expected"):
         MoorDyn(chains, period=0.5).start(0.0, REST, REST)
+
+
+def test_a_vessel_moored_by_moordyn_swings_like_one_on_static_lines(chains, capfd):
+    """In the time loop: quiet on the terminal, one realisation alone, slow motion as with quasi-static lines but for line damping."""
+    pytest.importorskip("moordyn", reason="MoorDyn is an optional extra: pip install ogilvie[moordyn]")
+    import ogilvie as og
+
+    body = og.RigidBody(mass=1.347e7, cog=[0, 0, -13.5], inertia=np.diag([6.9e9, 6.9e9, 1.2e10]))
+    A_inf = np.diag([8e6, 8e6, 1.4e7, 7e9, 7e9, 5e9])
+    radiation = og.StateSpaceRadiation(og.StateSpace(np.zeros((0, 0)), np.zeros((0, 6)), np.zeros((6, 0)), A_inf=A_inf))
+    damping = og.LinearDamping(np.diag([2e5, 2e5, 1e5, 1e7, 1e7, 1e7]))
+    loads = (og.LinearRestoring(np.diag([0, 0, 3.8e6, 1.3e9, 1.3e9, 0])), radiation, damping)
+    lines = [
+        og.MooringLine((837.6 * c, 837.6 * s, -200), (40.868 * c, 40.868 * s, -14), length=LENGTH, weight=WEIGHT, stiffness=EA)
+        for c, s in PLACES
+    ]
+    options = {"duration": 60.0, "dt": 0.1, "initial": {"eta": [8.0, 0, 0, 0, 0, 0]}, "output_step": 1.0}
+    static, dynamic = (
+        og.simulate(og.Vessel(body, loads=(*loads, m)), **options)
+        for m in (og.CatenaryMooring(lines), MoorDyn(chains, period=0.1))
+    )
+    assert np.abs(static.eta.values - dynamic.eta.values)[:, 0].max() < 1.0
+    assert dynamic.force_mooring.values[0, 0] == pytest.approx(static.force_mooring.values[0, 0], rel=0.05)
+    assert capfd.readouterr().out == ""

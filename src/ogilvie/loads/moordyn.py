@@ -1,5 +1,9 @@
 """Dynamic mooring lines by MoorDyn: the only importer of moordyn."""
 
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -43,7 +47,7 @@ class MoorDyn:
     ``close`` at the end. Between two calls each fairlead
     moves along the cubic of its places and velocities at both, in ten straight pieces (fewer where they were shorter than dt):
     it does not drift from the ship, and its velocity hardly jumps, for a jump is a blow to the lines. MoorDyn writes its log
-    and output files beside the input file and its greeting to the terminal.
+    and output files beside the input file; what it says on the terminal is not shown.
 
     References
     ----------
@@ -109,7 +113,8 @@ class MoorDyn:
         pose = vector6(eta, "MoorDyn: pose eta")
         self._time, self._ends = float(t), self._points(pose, vector6(nu, "MoorDyn: velocity nu"))
         places = self._ends[0].ravel().tolist()
-        code = self._library.Init(self._system, places, [0.0] * len(places))
+        with _quiet():
+            code = self._library.Init(self._system, places, [0.0] * len(places))
         self._pulls = (
             np.array([self._library.GetPointForce(p) for p in self._coupled()]) if code == 0 else np.full((1, 3), np.nan)
         )
@@ -160,9 +165,10 @@ class MoorDyn:
 
     def _open(self) -> None:
         try:
-            self._system = self._library.Create(str(self.path))
+            with _quiet():
+                self._system = self._library.Create(str(self.path))
         except RuntimeError:
-            raise InputError(f"MoorDyn: {self.path} was refused; MoorDyn's own message stands above.") from None
+            raise InputError(f"MoorDyn: {self.path} was refused; see the log beside it.") from None
         self._library.SetVerbosity(self._system, self._library.LEVEL_ERR)
         if self.dt is not None:
             self._library.SetDt(self._system, self.dt)
@@ -187,9 +193,10 @@ class MoorDyn:
         for i in range(pieces):
             speed = (path[i + 1] - path[i]) / step
             try:
-                found = self._library.Step(
-                    self._system, path[i].ravel().tolist(), speed.ravel().tolist(), self._time + i * step, step
-                )
+                with _quiet():
+                    found = self._library.Step(
+                        self._system, path[i].ravel().tolist(), speed.ravel().tolist(), self._time + i * step, step
+                    )
             except RuntimeError as error:
                 end = self._time + span
                 raise ConvergenceError(
@@ -230,3 +237,17 @@ def _seconds(value: float, what: str) -> float:
     if not (np.isfinite(number) and number > 0.0):
         raise InputError(f"MoorDyn: {what}: a positive number of s expected, {value!r} found.")
     return number
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Keep what the library prints at every step off the terminal; its errors come as return codes and in its log."""
+    sys.stdout.flush()
+    kept = os.dup(1)
+    try:
+        with open(os.devnull, "wb") as nowhere:
+            os.dup2(nowhere.fileno(), 1)
+        yield
+    finally:
+        os.dup2(kept, 1)
+        os.close(kept)
