@@ -273,7 +273,7 @@ def test_moordyn_refuses_a_file_that_is_none(chains):
 
 
 def test_a_vessel_moored_by_moordyn_swings_like_one_on_static_lines(chains, capfd):
-    """In the time loop: quiet on the terminal, one realisation alone, slow motion as with quasi-static lines but for line damping."""
+    """In the time loop: quiet on the terminal, slow motion as with quasi-static lines but for the damping of the lines."""
     pytest.importorskip("moordyn", reason="MoorDyn is an optional extra: pip install ogilvie[moordyn]")
     import ogilvie as og
 
