@@ -40,7 +40,7 @@ class HullLift:
     The cross-flow momentum per length at the after end is a v with a = rho pi T^2 / 2 (a flat plate of draught T below a rigid
     water plane) and the lateral velocity v = v_r + x r there. What a hull of finite after end sheds in its wake acts on it as
 
-        Y = -a |u_r| (v_r + x r),   N = x Y
+        ``Y = -a |u_r| (v_r + x r),   N = x Y``
 
     for ahead motion: the side force of Jones' wing of low aspect ratio, and the end terms of slender-body and strip theory for
     a hull cut off at x. Small motions take it at the vessel's speed.

@@ -32,7 +32,7 @@ class IkedaRollDamping:
     amplitude : float
         Of roll, rad: that of the linear model, the largest of the others.
     model : {"cubic", "quadratic", "linear"}
-        "cubic": -B1 p - B2 |p| p - B3 p^3, fitted to the equivalent damping at amplitudes from a tenth of `amplitude` up;
+        "cubic": ``-B1 p - B2 |p| p - B3 p^3``, fitted to the equivalent damping at amplitudes from a tenth of `amplitude` up;
         "quadratic": without B3; "linear": the equivalent damping at `amplitude`.
     wave : float, optional
         Wave damping of roll at zero speed and `omega`, N m s, for a vessel without a radiation load. By default there is none.

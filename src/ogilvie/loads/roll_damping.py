@@ -42,14 +42,14 @@ class Decay(Protocol):
 
 @load_kernel
 def roll_polynomial(x: Array, data: Array, own: Array, force: Array) -> None:
-    """Roll moment -(b2 |p| + b3 p^2) p with data (b2, b3)."""
+    """Roll moment ``-(b2 |p| + b3 p^2) p`` with data (b2, b3)."""
     p = x[NU_R + 3]
     force[3] -= (data[0] * abs(p) + data[1] * p * p) * p
 
 
 @dataclass(frozen=True, eq=False, init=False)
 class RollDamping:
-    """Roll moment -B1 p - B2 |p| p - B3 p^3.
+    """Roll moment ``-B1 p - B2 |p| p - B3 p^3``.
 
     Parameters
     ----------

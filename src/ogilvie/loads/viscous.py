@@ -103,7 +103,7 @@ class QuadraticDamping:
 
     Notes
     -----
-    F_i = -sum_j D2_ij |nu_rj| nu_rj. It comes on top of :class:`LinearDamping` and covers another effect.
+    ``F_i = -sum_j D2_ij |nu_rj| nu_rj``. It comes on top of :class:`LinearDamping` and covers another effect.
 
     Examples
     --------
