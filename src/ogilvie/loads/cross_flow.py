@@ -100,8 +100,8 @@ class CrossFlowDrag:
     Notes
     -----
     ``dF_y = -1/2 rho Cd T |v_s| v_s dx`` with v_s = v_r + x r - z p; ``dF_z = -1/2 rho Cd_z B |w_s| w_s dx`` with
-    w_s = w_r - x q; moments of both about O. Draught, breadth and coefficients are linear between the stations; two Gauss points in each
-    interval make pure sway and, for constant Cd T, pure yaw exact. The wetted hull is that at rest.
+    w_s = w_r - x q; moments of both about O. Draught, breadth and coefficients are linear between the stations; two Gauss
+    points in each interval make pure sway and, for constant Cd T, pure yaw exact. The wetted hull is that at rest.
 
     References
     ----------

@@ -45,8 +45,8 @@ class Current:
 
     Notes
     -----
-    ``velocity = (1/T) int_-T^0 V(z) (cos b, sin b) dz``, the velocity components linear between the heights; above the highest and
-    below the lowest of them there is no value: they have to reach 0 and -T.
+    ``velocity = (1/T) int_-T^0 V(z) (cos b, sin b) dz``, the velocity components linear between the heights; above the highest
+    and below the lowest of them there is no value: they have to reach 0 and -T.
 
     Examples
     --------

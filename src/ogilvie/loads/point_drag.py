@@ -69,7 +69,8 @@ class PointDrag:
     Notes
     -----
     With the velocity of the point through the water v = v_r + omega x r: plate ``F = -c |v.d| (v.d) d``; member
-    ``F = -c |v_n| v_n`` with v_n = v - (v.a) a. The water moves with the current alone; the orbital velocity of waves is left out.
+    ``F = -c |v_n| v_n`` with v_n = v - (v.a) a. The water moves with the current alone; the orbital velocity of waves is left
+    out.
 
     References
     ----------

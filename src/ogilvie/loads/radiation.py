@@ -85,9 +85,9 @@ class Convolution:
     K : Retardation
         Retardation functions with their added mass at infinite frequency.
     truncation : float, optional
-        Length T of the memory, s. By default the shortest after which no more than 1e-5 of ``int |K| dt`` is left in any coupling
-        (:func:`ogilvie.memory.convolve.memory_length`); ``K.duration`` takes the whole table. ``K.truncation_error`` tells what
-        the table itself leaves out.
+        Length T of the memory, s. By default the shortest after which no more than 1e-5 of ``int |K| dt`` is left in any
+        coupling (:func:`ogilvie.memory.convolve.memory_length`); ``K.duration`` takes the whole table. ``K.truncation_error``
+        tells what the table itself leaves out.
 
     Raises
     ------

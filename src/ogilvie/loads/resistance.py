@@ -113,8 +113,8 @@ class SurgeResistance:
     Notes
     -----
     ``F_x = -1/2 rho S [(1 + k) C_F(Rn) + C_A + C_R(Fn)] |u_r| u_r - 1/2 rho_air A C_D |u| u + T``, in body axes at O; u_r is
-    the speed through the water, u that over ground. C_F is :func:`friction_coefficient`; C_R a cubic spline. Above the last Froude
-    number of the table the force is NaN and a run stops: a wave resistance is not to be guessed. With a propulsion load
+    the speed through the water, u that over ground. C_F is :func:`friction_coefficient`; C_R a cubic spline. Above the last
+    Froude number of the table the force is NaN and a run stops: a wave resistance is not to be guessed. With a propulsion load
     leave `balanced_at` out.
 
     References
