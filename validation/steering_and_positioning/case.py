@@ -16,8 +16,9 @@ ABOUT = """Control laws at work in the equations of large motions, against close
 lines of the S175 (added mass of zero frequency from the panel method, lift and cross-flow drag of the hull, a rudder of 32.5
 m2) changes its course by 20 degrees at 10 and 4 m/s: the reference heading is 1 - (1 + wt + (wt)^2/2) exp(-wt) times the step,
 the rudder keeps its 35 degrees and 65 degrees in 28 seconds, and at 4 m/s it needs both. With the rudder held it turns in
-circles. No measurement is compared (and heel in the turn is that of a rudder below O and a hull lift that acts at the height
-of O, not that of the ship): speed, drift, rate of turn and heel have to be a solution of the steady equations, which are
+circles. No measurement is compared (momentum of the fluid is counted from the nominal speed of 10 m/s, of which the turn loses
+a third and more: counted from rest, the circle at 20 degrees is 3 % wider and the heel 3 degrees outward instead of 2 inward,
+so heel is not to be relied on): speed, drift, rate of turn and heel have to be a solution of the steady equations, which are
 written out here and solved on their own. A zig-zag (20/20) has to be the same at half the time step.
 
 An offshore vessel of 80 m keeps its position against waves (Hs 2.5 m, Tp 8.5 s), a drift force that follows their envelope,
