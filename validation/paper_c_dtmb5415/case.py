@@ -1,6 +1,7 @@
 """Paper C: the naval combatant DTMB 5415 at 18 knots in head seas, in the frequency domain."""
 
 import warnings
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -51,7 +52,7 @@ class Ship:
         Fine; `coarse` is the one that was solved.
     body : RigidBody
     hydro0 : xarray.Dataset
-        At zero speed, head seas.
+        At zero speed, head seas by default.
     speed : float
         m/s.
     from_lines : bool
@@ -66,8 +67,8 @@ class Ship:
     from_lines: bool
 
 
-def prepared(shared: Path | None) -> Ship:
-    """Return the ship, with lines from its particulars where its mesh is not at hand."""
+def prepared(shared: Path | None, directions: Sequence[float] = (HEAD,)) -> Ship:
+    """Return the ship, with lines from its particulars where its mesh is not at hand; wave directions in rad."""
     path = None if shared is None else Path(shared) / MESH
     from_lines = path is not None and path.exists()
     if from_lines:
@@ -79,7 +80,7 @@ def prepared(shared: Path | None) -> Ship:
         hull = og.shapes.from_particulars(**options, **form, panels=2400, name="DTMB 5415-like hull")
         coarse = og.shapes.from_particulars(**options, **form, panels=800, name="DTMB 5415-like hull")
     body = og.RigidBody.from_hull(coarse, zg=KG - DRAUGHT, gyradii=GYRADII)
-    hydro0 = _quiet(og.solve_bem, coarse, body, omega=OMEGA, wave_direction=[HEAD], progress=False)
+    hydro0 = _quiet(og.solve_bem, coarse, body, omega=OMEGA, wave_direction=list(directions), progress=False)
     return Ship(hull, coarse, body, hydro0, SPEED, from_lines)
 
 
