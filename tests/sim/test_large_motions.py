@@ -315,3 +315,47 @@ def test_capsizing_beyond_the_vertical_is_told():
     ship = og.Vessel(body, loads=(radiation, Push([0, 0, 0, 0, 3e9, 0])))
     with pytest.raises(og.ConvergenceError):
         og.simulate(ship, duration=600.0, dt=0.1)
+
+
+def test_waves_at_several_speeds_follow_the_mean_speed():
+    """From rest to speed on data sets at 0 to 8 m/s; outside them the run stops and says so."""
+    w, b, Z = np.linspace(0.2, 2.0, 10), np.radians(np.arange(0, 181, 30)), np.zeros((10, 6, 6))
+    sets = [
+        og.hydro_from_arrays(
+            omega=w,
+            added_mass=Z,
+            radiation_damping=Z,
+            wave_direction=b,
+            excitation_force=np.ones((10, 7, 6)) * (1 + u),
+            speed=u,
+        )
+        for u in (0.0, 2.0, 4.0, 8.0)
+    ]
+    body = og.RigidBody(mass=1e12, cog=[0, 0, 0], inertia=np.eye(3) * 1e15)
+    sea = og.regular(amplitude=1.0, omega=1.0, direction=np.pi)
+    for nominal, speed in ((0.0, 6.0), (6.0, 6.0), (2.0, 7.8)):
+        ship = og.Vessel(body, loads=og.WaveExcitation(sets), speed=nominal)
+        start = {"eta": np.zeros(6), "nu": [speed, 0, 0, 0, 0, 0]}
+        run = og.simulate(ship, sea, duration=20.0, initial=start, motions="large")
+        assert np.abs(run.force_excitation.values[:, 2]).max() == pytest.approx(1 + speed, rel=2e-3)
+    with pytest.raises(og.ConvergenceError, match=r"excitation is known for mean speeds through the water 0..8 m/s"):
+        og.simulate(
+            og.Vessel(body, loads=og.WaveExcitation(sets)),
+            sea,
+            duration=5.0,
+            motions="large",
+            initial={"nu": [9.0, 0, 0, 0, 0, 0]},
+        )
+
+
+def test_waves_at_the_slow_place_leave_no_mean_force(barge):
+    """Where the force is taken at the place of the moment its mean is of second order; at the slow place most of it is gone."""
+    loads = [load for load in barge.ship.loads if not isinstance(load, og.WaveExcitation)]
+    sea = og.regular(amplitude=2.0, period=8.0, direction=np.pi)
+    mean = {}
+    for position in ("instantaneous", "slow", "mean"):
+        ship = og.Vessel(barge.body, loads=(*loads, og.WaveExcitation(barge.hydro, position=position)))
+        run = og.simulate(ship, sea, duration=800.0, ramp=100.0, motions="large", output_step=0.2).sel(time=slice(600, 792))
+        mean[position] = abs(float(run.force_excitation.sel(dof="surge").mean()))
+    assert mean["slow"] < 0.3 * mean["instantaneous"]
+    assert mean["mean"] < 0.3 * mean["instantaneous"]

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ogilvie.errors import InputError
 from ogilvie.loads.base import ComplexArray
 from ogilvie.loads.interpolation import Headings, run_of, vessel_headings
-from ogilvie.loads.kernel import ETA, MEAN_SPEED, ROTATION, TIME, Kernel, load_kernel
+from ogilvie.loads.kernel import ETA, MEAN_SPEED, ROTATION, SLOW, TIME, Kernel, load_kernel
 from ogilvie.waves.field import Sea
 from ogilvie.waves.sincos import sines_and_cosines
 
@@ -25,7 +25,7 @@ Force = Callable[[Array, Array, float], ComplexArray]
 _FAST = {"reassoc", "contract", "nsz", "arcp"}
 _STEP = np.radians(3.0)  # of the tables over the relative heading, rad
 _LARGEST = 1.5e9  # bytes of all tables
-_HEAD, _GROUP, _FAMILY = 6, 4, 5  # numbers of the header, of a group, of a family
+_HEAD, _GROUP, _FAMILY = 7, 4, 5  # numbers of the header, of a group, of a family
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +49,17 @@ class _Family:
         return cls(grid, run is None, table)
 
 
-def encounter_kernel(force: Force, sea: Sea, *, ramp: float, speeds: Array, headings: Headings, heading: float) -> Kernel:
+def encounter_kernel(
+    force: Force,
+    sea: Sea,
+    *,
+    ramp: float,
+    speeds: Array,
+    limits: tuple[float, float],
+    headings: Headings,
+    heading: float,
+    slow: bool = False,
+) -> Kernel:
     """Return the wave force as a function of time, place, heading and speed.
 
     Parameters
@@ -61,12 +71,16 @@ def encounter_kernel(force: Force, sea: Sea, *, ramp: float, speeds: Array, head
     ramp : float
         s; the sea grows from nothing with sin^2.
     speeds : (n_u,) array
-        Ascending and uniform; a single one where the force does not depend on speed. Outside them the force is NaN.
+        Ascending, m/s; a single one where the force does not depend on speed.
+    limits : (float, float)
+        Mean speeds outside which the force is NaN, m/s.
     headings : Headings
         Relative headings of the data. Where they do not go all around, the force is NaN outside the run of them in which the
         waves lie at the vessel's first heading.
     heading : float
         The vessel's first heading, rad.
+    slow : bool
+        Take place and heading without the motion in the waves.
 
     Notes
     -----
@@ -91,17 +105,16 @@ def encounter_kernel(force: Force, sea: Sea, *, ramp: float, speeds: Array, head
         order.append(members)
     j = np.concatenate(order)
     kx, ky = sea.wavenumber * np.cos(sea.direction), sea.wavenumber * np.sin(sea.direction)
-    du = float(speeds[1] - speeds[0]) if len(speeds) > 1 else 0.0
-    head = [len(j), len(groups), len(speeds), float(speeds[0]), du, ramp]
-    data = np.concatenate([head, np.ravel(groups), _described(made, len(groups), len(j)), sea.omega[j], kx[j], ky[j]])
-    data = np.concatenate([data, *[family.table.ravel() for family in made]])
+    head = [len(j), len(groups), len(speeds), *limits, ramp, float(slow)]
+    numbers = [np.ravel(groups), _described(made, len(groups), len(j), len(speeds)), speeds, sea.omega[j], kx[j], ky[j]]
+    data = np.concatenate([np.array(head), *numbers, *[family.table.ravel() for family in made]])
     own = np.concatenate([np.atleast_2d(sea.amplitude)[:, j], np.atleast_2d(sea.phase)[:, j]], axis=1)
-    return Kernel(_wave_force, data, own, _limits(headings, directions, heading, speeds), steady=False)
+    return Kernel(_wave_force, data, own, _limits(headings, directions, heading, limits), steady=False)
 
 
-def _described(families: list[_Family], groups: int, n: int) -> Array:
+def _described(families: list[_Family], groups: int, n: int, n_u: int) -> Array:
     """Return for each family the place of its table, number of headings, first heading, step, whether it goes all around."""
-    place = _HEAD + _GROUP * groups + _FAMILY * len(families) + 3 * n
+    place = _HEAD + _GROUP * groups + _FAMILY * len(families) + n_u + 3 * n
     rows = []
     for family in families:
         rows.append([place, len(family.grid), family.grid[0], family.grid[1] - family.grid[0], float(family.periodic)])
@@ -129,14 +142,13 @@ def _spline_table(force: ComplexArray, grid: Array, periodic: bool) -> Array:
     return np.stack([values, spline(grid, 1) * (grid[1] - grid[0])], axis=1)
 
 
-def _limits(headings: Headings, directions: Array, heading: float, speeds: Array) -> str:
+def _limits(headings: Headings, directions: Array, heading: float, speeds: tuple[float, float]) -> str:
     found = vessel_headings(headings, directions, heading)
     parts = []
     if found is not None:
         lo, hi = np.degrees(found)
         parts.append(f"headings of the vessel {lo:.4g}..{hi:.4g} deg in this sea")
-    if len(speeds) > 1:
-        parts.append(f"mean speeds through the water {speeds[0]:.4g}..{speeds[-1]:.4g} m/s")
+    parts.append(f"mean speeds through the water {speeds[0]:.4g}..{speeds[1]:.4g} m/s (see WaveExcitation's argument speeds)")
     return " and ".join(parts)
 
 
@@ -154,6 +166,7 @@ def _add_row(row, weight, n, cosine, sine, total):
 def _add_group(data, family, b, u, n, cosine, sine, total):
     """Add the force of a group of n components whose heading relative to the bow is b; NaN outside its table."""
     table, n_b, n_u = data[int(data[family]) :], int(data[family + 1]), int(data[2])
+    low = min(int(u), max(n_u - 2, 0))
     around = data[family + 4] > 0.5
     h = (b - data[family + 2]) / data[family + 3]
     turn = 2.0 * np.pi / data[family + 3]
@@ -163,7 +176,6 @@ def _add_group(data, family, b, u, n, cosine, sine, total):
         return
     i = min(max(int(h), 0), n_b - 1 if around else n_b - 2)
     s, following = h - i, (i + 1) % n_b
-    low = min(max(int(u), 0), max(n_u - 2, 0))
     for k in range(2 if n_u > 1 else 1):
         share = 1.0 if n_u == 1 else (u - low if k == 1 else 1.0 - (u - low))
         here, there = ((low + k) * n_b + i) * 24 * n, ((low + k) * n_b + following) * 24 * n
@@ -176,19 +188,26 @@ def _add_group(data, family, b, u, n, cosine, sine, total):
 @load_kernel
 def _wave_force(x, data, own, force):
     n, n_g, n_u = int(data[0]), int(data[1]), int(data[2])
-    u = (x[MEAN_SPEED] - data[3]) / data[4] if n_u > 1 else 0.0
-    if u < -1e-9 or u > n_u - 1 + 1e-9:
+    mean = x[MEAN_SPEED]
+    if mean < data[3] - 1e-9 or mean > data[4] + 1e-9:
         force[:] = np.nan
         return
     families = _HEAD + _GROUP * n_g
     n_f = 0
     for g in range(n_g):
         n_f = max(n_f, int(data[_HEAD + _GROUP * g + 3]) + 1)
-    first = families + _FAMILY * n_f
+    speeds = data[families + _FAMILY * n_f : families + _FAMILY * n_f + n_u]
+    u = 0.0  # place among the speeds
+    for k in range(n_u - 1):
+        u += min(max((mean - speeds[k]) / (speeds[k + 1] - speeds[k]), 0.0), 1.0)
+    first = families + _FAMILY * n_f + n_u
+    px, py, psi = x[ETA], x[ETA + 1], x[ETA + 5]
+    if data[6] > 0.5:
+        px, py, psi = x[SLOW], x[SLOW + 1], x[SLOW + 2]
     omega, kx, ky = data[first : first + n], data[first + n : first + 2 * n], data[first + 2 * n : first + 3 * n]
     angle, sine, cosine, total = np.empty(n), np.empty(n), np.empty(n), np.zeros(6)
     for j in range(n):
-        angle[j] = omega[j] * x[TIME] - kx[j] * x[ETA] - ky[j] * x[ETA + 1] + own[n + j]
+        angle[j] = omega[j] * x[TIME] - kx[j] * px - ky[j] * py + own[n + j]
     sines_and_cosines(angle, sine, cosine)
     for j in range(n):
         cosine[j] *= own[j]
@@ -197,13 +216,13 @@ def _wave_force(x, data, own, force):
         at = _HEAD + _GROUP * g
         begin, count = int(data[at + 1]), int(data[at + 2])
         family = families + _FAMILY * int(data[at + 3])
-        b = data[at] - x[ETA + 5]
+        b = data[at] - psi
         _add_group(data, family, b, u, count, cosine[begin : begin + count], sine[begin : begin + count], total)
     if data[5] > 0.0 and x[TIME] < data[5]:
         grown = np.sin(0.5 * np.pi * max(x[TIME], 0.0) / data[5]) ** 2
         for p in range(6):
             total[p] *= grown
-    c, s = np.cos(x[ETA + 5]), np.sin(x[ETA + 5])
+    c, s = np.cos(psi), np.sin(psi)
     R = x[ROTATION:]
     for part in range(2):
         f0, f1, f2 = total[3 * part], total[3 * part + 1], total[3 * part + 2]

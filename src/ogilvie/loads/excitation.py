@@ -34,9 +34,13 @@ class WaveExcitation:
     ----------
     hydro : xarray.Dataset or sequence of them
         Hydrodynamic data set with ``excitation_force``; or several of one vessel at different speeds.
-    position : {"instantaneous", "mean"}
-        Where the waves are met in large motions: where the vessel is, at the heading it has; or in the frame that advances
-        steadily, as small motions assume.
+    position : {"instantaneous", "slow", "mean"}
+        Where the waves are met in large motions: where the vessel is, at the heading it has; the same without its motion in the
+        waves, which is right beside a load of slow drift, that has this part in it; or in the frame that advances steadily, as
+        small motions assume.
+    speeds : (float, float), optional
+        Mean speeds through the water, m/s, that a vessel in large motions may have. By default those of the data sets; with one
+        at zero speed up to half as fast again as the vessel's own, and 2 m/s either way for one that lies still.
 
     Raises
     ------
@@ -71,11 +75,20 @@ class WaveExcitation:
     _table: HeadingTable = field(repr=False)
     _speeds: SpeedTable | None = field(repr=False)
     position: str = "instantaneous"
+    speeds: tuple[float, float] | None = None
     name: str = "excitation"
 
-    def __init__(self, hydro: xr.Dataset | Sequence[xr.Dataset], *, position: str = "instantaneous") -> None:
-        if position not in ("instantaneous", "mean"):
-            raise InputError(f"WaveExcitation: position 'instantaneous' or 'mean' expected, {position!r} found.")
+    def __init__(
+        self,
+        hydro: xr.Dataset | Sequence[xr.Dataset],
+        *,
+        position: str = "instantaneous",
+        speeds: tuple[float, float] | None = None,
+    ) -> None:
+        if position not in ("instantaneous", "slow", "mean"):
+            raise InputError(f"WaveExcitation: position 'instantaneous', 'slow' or 'mean' expected, {position!r} found.")
+        if speeds is not None and not (len(speeds) == 2 and np.all(np.isfinite(speeds)) and speeds[0] < speeds[1]):
+            raise InputError(f"WaveExcitation: speeds: two ascending numbers of m/s expected, {speeds!r} found.")
         sets = [hydro] if isinstance(hydro, xr.Dataset) or not isinstance(hydro, Sequence) else list(hydro)
         for one in sets:
             if not isinstance(one, xr.Dataset):
@@ -88,6 +101,7 @@ class WaveExcitation:
                 )
         object.__setattr__(self, "hydro", sets[0])
         object.__setattr__(self, "position", position)
+        object.__setattr__(self, "speeds", None if speeds is None else (float(speeds[0]), float(speeds[1])))
         object.__setattr__(self, "name", "excitation")
         object.__setattr__(self, "_table", HeadingTable.of(sets[0]))
         object.__setattr__(self, "_speeds", SpeedTable(sets) if len(sets) > 1 or has_rule(sets[0]) else None)
@@ -137,7 +151,7 @@ class WaveExcitation:
                 stacklevel=2,
             )
         speed = at if self._speeds is not None else None
-        encounter = partial(_encounter, self, surroundings) if self.position == "instantaneous" else None
+        encounter = partial(_encounter, self, surroundings) if self.position != "mean" else None
         return Terms(wave=partial(_force_in_sea, self, speed), encounter=encounter)
 
     def _turning(self, omega: Array, direction: Array, speed: float) -> ComplexArray:
@@ -191,27 +205,40 @@ def _encounter(load: WaveExcitation, surroundings: Surroundings, sea: Sea, ramp:
     def force(omega: Array, b: Array, speed: float) -> ComplexArray:
         return load._turning(omega, np.broadcast_to(b[:, None], (len(b), len(omega))), speed)
 
+    speeds, limits_of_speed = _speeds_met(load, surroundings.speed)
     return encounter_kernel(
         force,
         part,
         ramp=ramp,
-        speeds=_speeds_met(load, surroundings.speed),
+        speeds=speeds,
+        limits=limits_of_speed,
+        slow=load.position == "slow",
         headings=load._table.headings,
         heading=surroundings.heading,
     )
 
 
-def _speeds_met(load: WaveExcitation, speed: float) -> Array:
-    """Return the speeds (n,) of the table: up to half as fast again as the vessel's own, in quarters of it."""
-    if load._speeds is None or speed == 0.0:
-        return np.array([speed])
-    lo, hi = load._speeds.speed_range
-    if not lo <= speed <= hi:
+def _speeds_met(load: WaveExcitation, speed: float) -> tuple[Array, tuple[float, float]]:
+    """Return the speeds (n,) of the table and the range of mean speeds that it serves, m/s.
+
+    Raises
+    ------
+    InputError
+        A vessel's speed, or wished speeds, outside the data.
+    """
+    around = max(2.0, 0.5 * speed)
+    if load._speeds is None:  # the force does not depend on speed: near the data's own, and near the vessel's (with a warning)
+        own = load._own_speed
+        return np.array([own]), load.speeds or (min(own, speed) - around, max(own, speed) + around)
+    data = load._speeds.speed_range
+    limits = load.speeds or (data if np.isfinite(data[0]) else (-0.5 * around, speed + around))
+    lo, hi = max(limits[0], data[0]), min(limits[1], data[1])
+    if not (lo <= speed <= hi and data[0] <= limits[0] and limits[1] <= data[1]):
         raise InputError(
-            f"WaveExcitation: a vessel's speed within the data ({lo:.4g}..{hi:.4g} m/s) expected, {speed:.4g} m/s found."
+            f"WaveExcitation: a vessel's speed and `speeds` within the data ({data[0]:.4g}..{data[1]:.4g} m/s) expected, "
+            f"{speed:.4g} and {limits} found."
         )
-    grid = speed * np.arange(-1, 7) / 4.0
-    return grid[(grid >= lo - 1e-9) & (grid <= hi + 1e-9)]
+    return np.unique(np.r_[np.linspace(lo, hi, 9), speed, load._speeds.speeds[1:-1]].clip(lo, hi).round(9)), (lo, hi)
 
 
 def _compare_depth(load: WaveExcitation, sea: Sea) -> None:

@@ -20,8 +20,9 @@ Array = NDArray[Any]
 
 #: Places in the situation x: time (s); pose eta in the world (m, rad); velocity nu in body axes; velocity through the water
 #: nu_r in body axes; the rotation matrix R (3, 3) row by row, body to world; the mean speed, that is the surge velocity through
-#: the water averaged over the last minute or so; the number of entries.
-TIME, ETA, NU, NU_R, ROTATION, MEAN_SPEED, SITUATION = 0, 1, 7, 13, 19, 28, 29
+#: the water averaged over the last minute or so; the slow x, y (m) and heading (rad), without the motion in the waves; the
+#: number of entries.
+TIME, ETA, NU, NU_R, ROTATION, MEAN_SPEED, SLOW, SITUATION = 0, 1, 7, 13, 19, 28, 29, 32
 
 _F8 = types.float64[::1]
 SIGNATURE = types.void(_F8, _F8, _F8, _F8)
@@ -126,7 +127,7 @@ def _hold(x, data, own, force):
 
 
 def situation(t: float = 0.0, eta: Any = None, nu: Any = None, nu_r: Any = None) -> Array:
-    """Return the situation x (29,) of a pose and velocities, zero where not given; the mean speed is the present one.
+    """Return the situation x (32,) of a pose and velocities, zero where not given, mean speed and slow pose as now.
 
     Examples
     --------
@@ -142,6 +143,7 @@ def situation(t: float = 0.0, eta: Any = None, nu: Any = None, nu_r: Any = None)
     x[NU_R:ROTATION] = x[NU:NU_R] if nu_r is None else nu_r
     x[ROTATION:MEAN_SPEED] = rotation_matrix(*x[ETA + 3 : ETA + 6]).ravel()
     x[MEAN_SPEED] = x[NU_R]
+    x[SLOW:] = x[[ETA, ETA + 1, ETA + 5]]
     return x
 
 

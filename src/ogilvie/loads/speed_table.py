@@ -142,6 +142,11 @@ class SpeedTable:
         return (-np.inf, np.inf) if self._rule else (float(self._speeds[0]), float(self._speeds[-1]))
 
     @property
+    def speeds(self) -> Array:
+        """Speeds of the data sets, m/s."""
+        return self._speeds
+
+    @property
     def omega_range(self) -> tuple[float, float]:
         """Lowest and highest frequency of the incident waves that all data sets hold, rad/s."""
         return max(float(t.omega[0]) for t in self._tables), min(float(t.omega[-1]) for t in self._tables)

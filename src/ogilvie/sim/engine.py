@@ -128,6 +128,8 @@ class Engine:
         """Return the beginning as :meth:`state_at_start` and tell it to the loads that Python computes."""
         y, memory, time = self.state_at_start(initial)
         if isinstance(self.scheme, LargeMotions):
+            if not _brings_memory(initial):
+                self.scheme.set_out(y, memory)
             self.scheme.begin(time, y)
         return y, memory, time
 
@@ -224,6 +226,12 @@ def make_engine(vessel: Vessel, sea: Sea | None, *, dt: float, method: str, ramp
     else:
         scheme = make_scheme(system, float(dt), method)
     return Engine(system, about, scheme, seaway, float(dt), float(ramp), large)
+
+
+def _brings_memory(initial: Initial) -> bool:
+    if isinstance(initial, State):
+        return initial.memory is not None
+    return isinstance(initial, Mapping) and initial.get("memory") is not None
 
 
 def ramp_factor(t: Array, ramp: float) -> Array:

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 
 from ogilvie.errors import InputError
 from ogilvie.loads.base import MemoryKernel
-from ogilvie.loads.kernel import ETA, MEAN_SPEED, NU, NU_R, SIGNATURE, SITUATION, Callback, Kernel, Sampled
-from ogilvie.sim.large_kernel import LARGE_COLUMNS, add_kernels, run_large, situate
+from ogilvie.loads.kernel import ETA, MEAN_SPEED, NU, NU_R, SIGNATURE, SITUATION, SLOW, Callback, Kernel, Sampled
+from ogilvie.sim.large_kernel import LARGE_COLUMNS, SLOW_STATES, add_kernels, run_large, situate
 from ogilvie.sim.packed import PackedMemory
 from ogilvie.sim.scheme import Interval
 from ogilvie.sim.statespace import refuse_unstable
-from ogilvie.sim.system import LinearSystem, momentum_output, warn_of_growth
+from ogilvie.sim.system import LinearSystem, added_mass_at_rest, momentum_output, warn_of_growth
 
 Array = NDArray[Any]
 
@@ -68,8 +68,9 @@ class LargeMotions:
     ----------
     dt : float
         s.
-    frame : (13,) array
-        Speed U, heading psi_0, current in the world (3), constant force in the steady frame (6), cos psi_0, sin psi_0.
+    frame : (15,) array
+        Speed U, heading psi_0, current in the world (3), constant force in the steady frame (6), cos psi_0, sin psi_0, A_11(0)
+        and A_51(0) or zero for U = 0.
     matrices : (5, 6, 6) array
         (M + A)^-1, M, A, D, C, each transposed.
     packed : PackedMemory
@@ -101,24 +102,26 @@ class LargeMotions:
                 "or leave out what is not linear and simulate small motions."
             )
         current = np.sum([t.current for t in system.terms], axis=0) if system.terms else np.zeros(3)
-        frame = steady_frame(system.speed, system.heading, current, system.constant)
+        A_0 = added_mass_at_rest(system)
+        ahead = A_0[[0, 4], 0] if system.speed > 0.0 else np.zeros(2)
+        frame = steady_frame(system.speed, system.heading, current, system.constant, ahead)
         parts = (system.inverse_mass, system.body_mass, system.added_mass, system.damping, system.stiffness)
         matrices = np.ascontiguousarray(np.array(parts, dtype=float).transpose(0, 2, 1))
         packed = PackedMemory.of(system.memory, dt, momentum_output(system.memory)).turned()
-        table = _sampling(laws, 1 + packed.size, dt)
+        table = _sampling(laws, SLOW_STATES + packed.size, dt)
         scheme = cls(float(dt), frame, matrices, packed, forces, laws, tuple(callbacks), table)
         scheme._refuse_unstable(system)
         return scheme
 
     @property
     def columns(self) -> int:
-        """Length of a row of output: eta, nu, acceleration, radiation, mean speed, held forces, signals."""
+        """Length of a row of output: eta, nu, acceleration, radiation, mean speed, slow pose, held forces, signals."""
         return LARGE_COLUMNS + 6 * len(self.table) + len(self.signals)
 
     @property
     def memory_size(self) -> int:
-        """Length of the memory vector: mean speed, fluid, then held force and memory of each control law."""
-        return int(self.table[-1, 3]) if len(self.table) else 1 + self.packed.size
+        """Length of the memory vector: mean speed and slow pose, fluid, then held force and memory of each control law."""
+        return int(self.table[-1, 3]) if len(self.table) else SLOW_STATES + self.packed.size
 
     @cached_property
     def signals(self) -> NDArray[np.int64]:
@@ -145,11 +148,18 @@ class LargeMotions:
 
     def rest(self, nu: Array) -> Array:
         """Return the memory (r, k) of vessels that sailed steadily; see :class:`ogilvie.sim.scheme.Scheme`."""
-        return self._controlled(np.zeros((len(nu), self.packed.size)), nu[:, 0])
+        return self._controlled(np.zeros((len(nu), self.packed.size)))
 
     def steady(self, omega: Array, velocity: Array, amplitude: Array) -> Array:
         """Return the memory (r, k) of harmonic motions at t = 0; see :class:`ogilvie.sim.scheme.Scheme`."""
-        return self._controlled(self.packed.steady(omega, velocity, amplitude), np.full(len(amplitude), self.frame[0]))
+        return self._controlled(self.packed.steady(omega, velocity, amplitude))
+
+    def set_out(self, y: Array, memory: Array) -> None:
+        """Let mean speed and slow pose begin with the states y (r, 12): what has been there before is not known."""
+        c, s = np.cos(y[:, 5]), np.sin(y[:, 5])
+        memory[:, 0] = y[:, 6] - (c * self.frame[2] + s * self.frame[3])
+        memory[:, 1:4] = y[:, [0, 1, 5]]
+        memory[:, 4:7] = np.stack([c * y[:, 6] - s * y[:, 7], s * y[:, 6] + c * y[:, 7], y[:, 11]], axis=1)
 
     def advance(self, y: Array, memory: Array, wave: Array, external: Array, at: Interval, out: Array) -> int:
         """Advance in place; see :class:`ogilvie.sim.scheme.Scheme`."""
@@ -194,10 +204,11 @@ class LargeMotions:
             if callback.begin is not None:
                 callback.begin(t, y[0, :6].copy(), y[0, 6:].copy())
 
-    def kernel_forces(
-        self, which: int, realisation: int, t: Array, eta: Array, nu: Array, mean_speed: Array | None = None
-    ) -> Array:
-        """Return the force (n, 6) of one compiled load at times t (n,), poses and velocities (n, 6), mean speeds (n,)."""
+    def kernel_forces(self, which: int, realisation: int, t: Array, eta: Array, nu: Array, slow: Array | None = None) -> Array:
+        """Return the force (n, 6) of one compiled load at times t (n,), poses and velocities (n, 6).
+
+        slow (n, 4) holds mean speed and slow pose; those of the moment without it.
+        """
         kernel = self.forces.kernels[which]
         one = Compiled((self.forces.names[which],), (kernel,))
         own = kernel.own[min(realisation, len(kernel.own) - 1)]
@@ -206,14 +217,16 @@ class LargeMotions:
         for i in range(len(t)):
             x[ETA:NU], x[NU : NU + 6] = eta[i], nu[i]
             situate(t[i], self.frame[2:5], x, trig)
-            x[MEAN_SPEED] = x[NU_R] if mean_speed is None else mean_speed[i]
+            now = (x[NU_R], x[ETA], x[ETA + 1], x[ETA + 5])
+            x[MEAN_SPEED : SLOW + 3] = now if slow is None else slow[i]
             add_kernels(one.functions, ranges, one.data, own, x, force[i])
         return force
 
-    def _controlled(self, memory: Array, mean_speed: Array) -> Array:
-        """Put the mean speed (r,) before the memory of the fluid, held forces and memories of the control laws after it."""
+    def _controlled(self, memory: Array) -> Array:
+        """Put the slow states before the memory of the fluid, held forces and memories of the control laws after it."""
         start = np.concatenate([np.zeros(0), *[np.r_[np.zeros(6), law.memory] for law in self.laws.kernels]])
-        return np.concatenate([mean_speed[:, None], memory, np.broadcast_to(start, (len(memory), len(start)))], axis=1)
+        slow = np.zeros((len(memory), SLOW_STATES))
+        return np.concatenate([slow, memory, np.broadcast_to(start, (len(memory), len(start)))], axis=1)
 
     def _refuse_unstable(self, system: LinearSystem) -> None:
         """Check dt on the motions about the steady course, with the compiled forces linearised there."""
@@ -242,9 +255,9 @@ class LargeMotions:
         return slopes[0], slopes[1]
 
 
-def steady_frame(speed: float, heading: float, current: Array, constant: Array) -> Array:
+def steady_frame(speed: float, heading: float, current: Array, constant: Array, ahead: Array) -> Array:
     """Return the array `frame` of the kernels."""
-    return np.concatenate([[speed, heading], current, constant, [np.cos(heading), np.sin(heading)]])
+    return np.concatenate([[speed, heading], current, constant, [np.cos(heading), np.sin(heading)], ahead])
 
 
 def _ranges(lengths: Sequence[int]) -> NDArray[np.int64]:

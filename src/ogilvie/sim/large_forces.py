@@ -51,14 +51,14 @@ class LargeLoadForce:
         if self.column >= 0:
             table[:] = wave[first : first + n * step : step, self.column : self.column + 6][:n]
         own = self.scheme.frame
-        frame = steady_frame(own[0], own[1], own[2:5], term.constant)
+        frame = steady_frame(own[0], own[1], own[2:5], term.constant, own[13:])
         if term.stiffness.any() or term.constant.any() or self.column >= 0 or term.damping.any():
             _reference(frame, np.ascontiguousarray(term.stiffness.T), term.damping, table, rows, t, out)
         out -= rows[:, 12:18] @ term.added_mass.T
         if term.memory is not None or term.added_mass.any():
             out += rows[:, 18:24]
         for which in self.kernels:
-            out += self.scheme.kernel_forces(which, realisation, t, rows[:, :6], rows[:, 6:12], rows[:, 24])
+            out += self.scheme.kernel_forces(which, realisation, t, rows[:, :6], rows[:, 6:12], rows[:, 24:28])
         if self.held >= 0:
             begin = LARGE_COLUMNS + 6 * self.held
             out += rows[:, begin : begin + 6]

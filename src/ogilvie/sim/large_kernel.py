@@ -1,7 +1,8 @@
 """Compiled: Runge-Kutta steps of a vessel in large motions: world pose, body velocity, fluid momentum, any compiled load.
 
     p' = R v, Theta' = T omega,  nu = (v, omega) in body axes;  nu_r = nu - (R^T v_c, 0), delta = nu_r - U e_1
-    P = A delta + p_m                         momentum of the fluid; p_m' = mu, the fluid memory driven by delta
+    P = A delta + p_m - A_i1(0) (u_m - U)      momentum of the fluid; p_m' = mu, the fluid memory driven by delta; the last
+                                               term, of the mean speed u_m, for U > 0 and i = 1, 5 alone
     (M + A) nu' = F - A (omega x R^T v_c) - mu - [omega x h; omega x k + v x h]_M nu - [omega x P_1; omega x P_2 + v_r x P_1]
 
 Every product with a velocity is without work, so a passive memory stays passive in large motions.
@@ -10,17 +11,23 @@ Every product with a velocity is without work, so a passive memory stays passive
 import numpy as np
 from numba import njit
 
-from ogilvie.loads.kernel import ETA, MEAN_SPEED, NU, NU_R, ROTATION, SITUATION, TIME
+from ogilvie.loads.kernel import ETA, MEAN_SPEED, NU, NU_R, ROTATION, SITUATION, SLOW, TIME
 from ogilvie.sim.dynamics import FAST, combine
 from ogilvie.sim.packed import advance_memory, memory_force
 from ogilvie.waves.sincos import sine_and_cosine
 
-#: Columns of a row of output: eta, nu, acceleration, radiation force without -A nu', mean speed; then the held forces and the
-#: signals.
-LARGE_COLUMNS = 25
+#: Columns of a row of output: eta, nu, acceleration, radiation force without -A nu', mean speed, slow x, y and heading; then
+#: the held forces and the signals.
+LARGE_COLUMNS = 28
+
+#: Mean speed and slow pose at the head of the memory vector: u_m; x, y, psi of the slow pose and their rates.
+SLOW_STATES = 7
 
 #: s, over which the mean speed is averaged (exponentially): long beside a wave, short beside a manoeuvre.
 AVERAGING = 30.0
+
+#: rad/s and damping ratio of the filter of the slow pose, which follows steady sailing and steady turning without delay.
+SLOW_FREQUENCY, SLOW_DAMPING = 0.1, 0.7
 
 
 @njit(cache=True, nogil=True, fastmath=FAST)
@@ -88,7 +95,7 @@ def _pose_rate(x, trig, rate):
 def add_reference_forces(t, frame, C, wave, k, x, trig, work, force):
     """Add -J^T C (eta - eta_0) and the tabulated forces, given in the frame that advances steadily at U and psi_0.
 
-    frame = U, psi_0, current (3), constant force (6), cos psi_0, sin psi_0; C transposed; work (12,) is room to work in.
+    frame = U, psi_0, current (3), constant force (6), cos psi_0, sin psi_0, ...; C transposed; work (12,) is room to work in.
     """
     R, U, c, s = x[ROTATION:], frame[0], frame[11], frame[12]
     dx, dy = x[ETA] - U * t * c, x[ETA + 1] - U * t * s
@@ -156,6 +163,16 @@ def _sample(functions, table, data, number, x, memory):
 
 
 @njit(cache=True, nogil=True, fastmath=FAST)
+def _slow_rates(x, slow, rate):
+    """rate (7,) of mean speed and slow pose, u_m' = (u_r - u_m) / T, z' = v + 2 d w (y - z), v' = w^2 (y - z)."""
+    rate[0] = (x[NU_R] - slow[0]) / AVERAGING
+    for p in range(3):
+        left = x[ETA + (p if p < 2 else 5)] - slow[1 + p]
+        rate[1 + p] = slow[4 + p] + 2.0 * SLOW_DAMPING * SLOW_FREQUENCY * left
+        rate[4 + p] = SLOW_FREQUENCY * SLOW_FREQUENCY * left
+
+
+@njit(cache=True, nogil=True, fastmath=FAST)
 def run_large(
     dt, frame, matrices, places, output, coupling, source, bands, dense,
     functions, ranges, data, own, laws, table, law_data, signals,
@@ -163,16 +180,17 @@ def run_large(
 ):  # fmt: skip
     """Advance `steps` steps; see :class:`ogilvie.sim.large.LargeMotions` for the arrays.
 
-    The memory vector begins with the mean speed u_m, u_m' = (u_r - u_m) / AVERAGING, advanced with the body's stages.
+    The memory vector begins with mean speed and slow pose, advanced with the body's stages. For U > 0 the products with
+    velocities see the momentum without its steady part A_i1(0) (u_m - U), as in the theory of a uniform stream.
     """
-    n_states = 1 + places.shape[0] * (output.shape[3] + 2)
-    states = memory[1:n_states].reshape(places.shape[0], output.shape[3] + 2)
+    n_states = SLOW_STATES + places.shape[0] * (output.shape[3] + 2)
+    states = memory[SLOW_STATES:n_states].reshape(places.shape[0], output.shape[3] + 2)
     old = np.empty(output.shape[3] + 2)
     rate, a, v, delta = np.empty((4, 6)), np.empty((4, 6)), np.empty((4, 6)), np.empty((4, 6))
     both, radiation, held = np.zeros((2, 24)), np.zeros((4, 6)), np.empty(6)
     mu, force, x, trig, work = np.empty(12), np.empty(6), np.empty(SITUATION), np.empty(4), np.empty(12)
     current = frame[2:5]
-    flat_delta, mean_rate = delta.reshape(24), np.zeros(4)
+    flat_delta, slow, slow_rate = delta.reshape(24), np.empty(SLOW_STATES), np.zeros((4, SLOW_STATES))
     written = 0
     for i in range(steps):
         t = origin + (number + i) * dt
@@ -187,8 +205,10 @@ def run_large(
                     x[NU + p] += h * a[stage - 1, p]
                 v[stage, p] = x[NU + p]
             situate(t + h, current, x, trig)
-            x[MEAN_SPEED] = memory[0] + (h * mean_rate[stage - 1] if stage > 0 else 0.0)
-            mean_rate[stage] = (x[NU_R] - x[MEAN_SPEED]) / AVERAGING
+            for p in range(SLOW_STATES):
+                slow[p] = memory[p] + (h * slow_rate[stage - 1, p] if stage > 0 else 0.0)
+            _slow_rates(x, slow, slow_rate[stage])
+            x[MEAN_SPEED], x[SLOW], x[SLOW + 1], x[SLOW + 2] = slow[0], slow[1], slow[2], slow[3]
             if stage == 0:
                 _sample(laws, table, law_data, number + i, x, memory)
                 held[:] = external
@@ -208,6 +228,8 @@ def run_large(
             if stage == 3:
                 _add_product(coupling[0, 3, 2], delta[2], 0, 1.0, mu, 0)
                 _add_product(coupling[1, 3, 2], delta[2], 0, 1.0, mu, 6)
+            mu[6] -= frame[13] * (slow[0] - frame[0])
+            mu[10] -= frame[14] * (slow[0] - frame[0])
             _pose_rate(x, trig, rate[stage])
             add_reference_forces(t + h, frame, matrices[4], wave, row + 2 * i + (stage + 1) // 2, x, trig, work, force)
             _body_forces(matrices, x, delta[stage], mu, work, radiation[stage], force)
@@ -217,7 +239,8 @@ def run_large(
             for p in range(6):
                 out[written, p], out[written, 6 + p] = y[p], y[6 + p]
                 out[written, 12 + p], out[written, 18 + p] = a[0, p], radiation[0, p]
-            out[written, 24] = memory[0]
+            for p in range(4):
+                out[written, 24 + p] = memory[p]
             for k in range(table.shape[0]):
                 for p in range(6):
                     out[written, LARGE_COLUMNS + 6 * k + p] = memory[table[k, 2] + p]
@@ -225,6 +248,8 @@ def run_large(
                 out[written, LARGE_COLUMNS + 6 * table.shape[0] + k] = memory[signals[k]]
             written += 1
         combine(dt, y, rate, a)
-        memory[0] += dt / 6.0 * (mean_rate[0] + 2.0 * (mean_rate[1] + mean_rate[2]) + mean_rate[3])
+        for p in range(SLOW_STATES):
+            middle = slow_rate[1, p] + slow_rate[2, p]
+            memory[p] += dt / 6.0 * (slow_rate[0, p] + 2.0 * middle + slow_rate[3, p])
         advance_memory(places, source, bands, dense, flat_delta, old, states)
     return written

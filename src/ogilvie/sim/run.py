@@ -39,6 +39,7 @@ class Run:
     stride: int
     loads: Sequence[LoadForce | LargeLoadForce]  # whose forces are wanted
     series: dict[str, Array]  # (r, rows, 6), or (r, rows) for the elevation
+    begun: Array  # (r, 12), where the run started
     rows: int = 0  # that are done
 
     @classmethod
@@ -56,7 +57,7 @@ class Run:
         series |= {name: np.empty(shape) for name, _ in signals}
         if "elevation" in names and engine.seaway is not None:
             series["elevation"] = np.empty(shape)
-        return cls(engine, y, memory, first, origin, steps, stride, loads, series)
+        return cls(engine, y, memory, first, origin, steps, stride, loads, series, y.copy())
 
     def times(self) -> Array:
         """Times of the rows that are done, s."""
@@ -153,8 +154,11 @@ class Run:
 
     def _why(self, realisation: int) -> str:
         """Return which load the vessel left, from the last good row, or nothing."""
-        if self.rows == 0 or not {"eta", "nu"} <= set(self.series):
+        if not {"eta", "nu"} <= set(self.series):
             return ""
+        if self.rows == 0:
+            t, y = np.full(2, self.origin + self.first * self.engine.dt), np.stack([self.begun[realisation]] * 2)
+            return self.engine.explain(realisation, t, y[:, :6], y[:, 6:])
         last = slice(max(self.rows - 2, 0), self.rows)
         return self.engine.explain(
             realisation, self.times()[last], *(self.series[key][realisation, last] for key in ("eta", "nu"))

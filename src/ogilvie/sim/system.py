@@ -225,6 +225,14 @@ def _memory(found: list[MemoryModel | MemoryKernel]) -> MemoryModel | MemoryKern
     return modal_memory(found[0]) if isinstance(found[0], MemoryModel) else found[0]
 
 
+def added_mass_at_rest(system: LinearSystem) -> Array:
+    """Return A(0) = A_inf - C A^-2 B (6, 6), the added mass of slow motions that A_inf and a state-space memory have."""
+    memory = system.memory
+    if isinstance(memory, MemoryKernel) or not len(memory.A):
+        return system.added_mass
+    return system.added_mass - momentum_output(memory) @ np.linalg.solve(memory.A, memory.B)
+
+
 def momentum_output(model: MemoryModel) -> Array:
     """Return C A^-1 (6, n): the momentum p_m = C A^-1 x of the fluid memory, p_m' = mu since K_hat(0) = -C A^-1 B = 0."""
     return np.linalg.solve(model.A.T, model.C.T).T if len(model.A) else np.zeros((6, 0))
