@@ -338,7 +338,7 @@ def test_waves_at_several_speeds_follow_the_mean_speed():
         start = {"eta": np.zeros(6), "nu": [speed, 0, 0, 0, 0, 0]}
         run = og.simulate(ship, sea, duration=20.0, initial=start, motions="large")
         assert np.abs(run.force_excitation.values[:, 2]).max() == pytest.approx(1 + speed, rel=2e-3)
-    with pytest.raises(og.ConvergenceError, match=r"excitation is known for mean speeds through the water 0..8 m/s"):
+    with pytest.raises(og.ConvergenceError, match=r"excitation is known for .*mean speeds through the water 0..8 m/s"):
         og.simulate(
             og.Vessel(body, loads=og.WaveExcitation(sets)),
             sea,
@@ -348,14 +348,17 @@ def test_waves_at_several_speeds_follow_the_mean_speed():
         )
 
 
-def test_waves_at_the_slow_place_leave_no_mean_force(barge):
-    """Where the force is taken at the place of the moment its mean is of second order; at the slow place most of it is gone."""
+def test_waves_at_the_slow_place_leave_little_mean_force(barge):
+    """At the place of the moment the force has a mean up to k |F| |surge| / 2; at the slow place the motion counts a fifth."""
     loads = [load for load in barge.ship.loads if not isinstance(load, og.WaveExcitation)]
     sea = og.regular(amplitude=2.0, period=8.0, direction=np.pi)
     mean = {}
     for position in ("instantaneous", "slow", "mean"):
         ship = og.Vessel(barge.body, loads=(*loads, og.WaveExcitation(barge.hydro, position=position)))
         run = og.simulate(ship, sea, duration=800.0, ramp=100.0, motions="large", output_step=0.2).sel(time=slice(600, 792))
-        mean[position] = abs(float(run.force_excitation.sel(dof="surge").mean()))
-    assert mean["slow"] < 0.3 * mean["instantaneous"]
-    assert mean["mean"] < 0.3 * mean["instantaneous"]
+        axes = np.array([rotation_matrix(*eta[3:]) for eta in run.eta.values])
+        force = np.einsum("tij,tj->ti", axes, run.force_excitation.values[:, :3])[:-1, 0]
+        mean[position] = abs(force.mean()) / (sea.wavenumber[0] * force.std() * run.eta.values[:-1, 0].std())
+    assert mean["instantaneous"] > 0.2
+    assert mean["slow"] < 0.25
+    assert mean["mean"] < 0.02

@@ -35,8 +35,8 @@ class WaveExcitation:
     hydro : xarray.Dataset or sequence of them
         Hydrodynamic data set with ``excitation_force``; or several of one vessel at different speeds.
     position : {"instantaneous", "slow", "mean"}
-        Where the waves are met in large motions: where the vessel is, at the heading it has; the same without its motion in the
-        waves, which is right beside a load of slow drift, that has this part in it; or in the frame that advances steadily, as
+        Where the waves are met in large motions: where the vessel is, at the heading it has; the same with its motion in the
+        waves filtered to about a fifth, which is right beside a load of slow drift, that has this part in it; or in the frame that advances steadily, as
         small motions assume.
     speeds : (float, float), optional
         Mean speeds through the water, m/s, that a vessel in large motions may have. By default those of the data sets; with one
