@@ -106,8 +106,8 @@ def evaluate(omega: Array, headings: Headings, table: ComplexArray, w: Array, b:
     return np.einsum("nb,nbi->ni", across[:, used], along)
 
 
-def heading_weights(headings: Headings, b: Array) -> Array:
-    """Return the weights (n, n_b) of the tabulated headings in the value at each heading b (n,).
+def heading_weights(headings: Headings, b: Array, *, derivative: int = 0) -> Array:
+    """Return the weights (n, n_b) of the tabulated headings in the value, or a derivative, at each heading b (n,).
 
     Raises
     ------
@@ -121,9 +121,11 @@ def heading_weights(headings: Headings, b: Array) -> Array:
         from scipy.interpolate import CubicSpline
 
         ring = np.eye(len(t))[np.append(np.arange(len(t)), 0)]
-        return CubicSpline(np.append(t, t[0] + TURN), ring, bc_type="periodic")(x)
+        return CubicSpline(np.append(t, t[0] + TURN), ring, bc_type="periodic")(x, derivative)
     x = np.clip(x, t[0], t[-1])
-    return np.ones((len(b), 1)) if len(t) == 1 else interpolated(t, np.eye(len(t)), x)
+    if len(t) == 1:
+        return np.full((len(b), 1), float(derivative == 0))
+    return interpolated(t, np.eye(len(t)), x, derivative=derivative)
 
 
 def evaluate_turning(omega: Array, headings: Headings, table: ComplexArray, w: Array, b: Array) -> ComplexArray:
@@ -175,8 +177,8 @@ def _refuse_outside(headings: Headings, x: Array) -> None:
         )
 
 
-def interpolated(x: Array, y: NDArray, at: Array) -> NDArray:
+def interpolated(x: Array, y: NDArray, at: Array, *, derivative: int = 0) -> NDArray:
     """Cubic spline through the rows of y (not-a-knot), of lower degree where there are fewer than four points."""
     from scipy.interpolate import make_interp_spline
 
-    return make_interp_spline(x, y, k=min(3, len(x) - 1))(at)
+    return make_interp_spline(x, y, k=min(3, len(x) - 1))(at, derivative)
