@@ -36,8 +36,8 @@ class QtfTable:
     Notes
     -----
     Cubic splines S in frequency, complex splines in heading: Q(w_i, w_j; b) = S_i Q_b S_j^T. Two waves of different directions
-    get (Q(w_i, w_j; b_i) + Q(w_i, w_j; b_j))/2. The matrix of the data is decomposed, Q_b = sum_k lambda_k u_k u_k^H, so the
-    number of products is the rank of the data, however many components the sea has.
+    get (Q(w_i, w_j; b_i) + Q(w_i, w_j; b_j))/2. S Q_b S^T = sum_k lambda_k u_k u_k^H is found from a matrix of the size of the
+    data, so that the number of products is at most n_w for each component, however many waves the sea has.
     """
 
     omega: Array
@@ -49,26 +49,32 @@ class QtfTable:
 
     def form(self, omega: Array, direction: Array) -> QuadraticForm:
         """Return the force of n components with these frequencies and directions relative to the bow."""
-        S = spline_weights(self.omega, omega)
-        b, which = np.unique(np.round(direction / _SAME), return_inverse=True)
-        first = np.array([np.flatnonzero(which == c)[0] for c in range(len(b))], dtype=np.intp)
+        base, R = np.linalg.qr(spline_weights(self.omega, omega))
+        b, first, which = np.unique(np.round(direction / _SAME), return_index=True, return_inverse=True)
         across = heading_weights(self.headings, direction[first])
         left, right, weight = [], [], []
         for c in range(len(b)):
             Q = np.einsum("b,pqbi->ipq", across[c], self.values)
             mask = which == c
             for i in np.flatnonzero(self.known):
-                size, u, v = decomposed(Q[i], self.tolerance, difference=self.difference)
-                left.append((S @ u).T * mask)
-                right.append((S @ v).T)
+                size, u, v = decomposed(R @ Q[i] @ R.T, self.tolerance, difference=self.difference)
+                left.append((base @ u).T * mask)
+                right.append((base @ v).T)
                 weight.append(size[:, None] * np.eye(6)[i])
         return _form(left, right, weight, len(omega), difference=self.difference)
 
     def pair(self, omega_1: Array, direction_1: Array, omega_2: Array, direction_2: Array) -> ComplexArray:
         """Return Q (n, 6) of n pairs of waves, from the definition."""
         S1, S2 = spline_weights(self.omega, omega_1), spline_weights(self.omega, omega_2)
-        h = 0.5 * (heading_weights(self.headings, direction_1) + heading_weights(self.headings, direction_2))
-        return np.einsum("np,nq,nb,pqbi->ni", S1, S2, h, self.values, optimize=True)
+        found = np.zeros((len(S1), 6), dtype=complex)
+        for direction in (direction_1, direction_2):
+            b, first, which = np.unique(np.round(direction / _SAME), return_index=True, return_inverse=True)
+            across = heading_weights(self.headings, direction[first])
+            for c in range(len(b)):
+                rows = np.flatnonzero(which == c)
+                Q = np.einsum("b,pqbi->pqi", across[c], self.values)
+                found[rows] += 0.5 * _bilinear(S1[rows], Q, S2[rows])
+        return found
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,13 +102,13 @@ class QtfPairTable:
 
     def form(self, omega: Array, direction: Array) -> QuadraticForm:
         """Return the force of n components with these frequencies and directions relative to the bow."""
-        W = self._weights(omega, direction)
+        base, R = np.linalg.qr(self._weights(omega, direction))
         left, right, weight = [], [], []
         for i in np.flatnonzero(self.known):
-            Q = self.values[..., i].reshape(W.shape[1], W.shape[1])
-            size, u, v = decomposed(Q, self.tolerance, difference=self.difference)
-            left.append((W @ u).T)
-            right.append((W @ v).T)
+            Q = self.values[..., i].reshape(R.shape[1], R.shape[1])
+            size, u, v = decomposed(R @ Q @ R.T, self.tolerance, difference=self.difference)
+            left.append((base @ u).T)
+            right.append((base @ v).T)
             weight.append(size[:, None] * np.eye(6)[i])
         return _form(left, right, weight, len(omega), difference=self.difference)
 
@@ -110,11 +116,21 @@ class QtfPairTable:
         """Return Q (n, 6) of n pairs of waves, from the definition."""
         one, two = self._weights(omega_1, direction_1), self._weights(omega_2, direction_2)
         Q = self.values.reshape(one.shape[1], one.shape[1], -1)
-        return np.einsum("np,nq,pqi->ni", one, two, Q, optimize=True)
+        return _bilinear(one, Q, two)
 
     def _weights(self, omega: Array, direction: Array) -> Array:
         S, h = spline_weights(self.omega, omega), heading_weights(self.headings, direction)
         return (S[:, :, None] * h[:, None, :]).reshape(len(omega), -1)
+
+
+def _bilinear(one: Array, Q: ComplexArray, two: Array) -> ComplexArray:
+    """Return sum_pq one_np Q_pqi two_nq (n, 6), some rows at a time."""
+    found = np.empty((len(one), Q.shape[2]), dtype=complex)
+    for begin in range(0, len(one), 2048):
+        part = slice(begin, begin + 2048)
+        half = (one[part] @ Q.reshape(len(Q), -1)).reshape(-1, *Q.shape[1:])
+        found[part] = np.einsum("nq,nqi->ni", two[part], half)
+    return found
 
 
 def decomposed(Q: ComplexArray, tolerance: float, *, difference: bool) -> tuple[Array, ComplexArray, ComplexArray]:
