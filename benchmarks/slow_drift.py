@@ -21,12 +21,12 @@ def vessel() -> object:
     """Return a data set with smooth made-up drift and a full quadratic transfer function of it."""
     w, b = np.linspace(0.2, 2.4, 30), np.radians(np.arange(0, 181, 30))
     M = np.tile(np.eye(6) * 1e6, (len(w), 1, 1))
-    D = np.tanh(2 * w[:, None, None] ** 2) * np.stack(
-        [np.cos(b), np.sin(b), 1 + 0 * b, np.sin(b), np.cos(b), np.sin(2 * b)], -1
-    )
+    around = np.stack([np.cos(b), np.sin(b), np.ones_like(b), np.sin(b), np.cos(b), np.sin(2 * b)], axis=-1)
+    D = np.tanh(2 * w[:, None, None] ** 2) * around
     hydro = og.hydro_from_arrays(omega=w, added_mass=M, radiation_damping=M, wave_direction=b, mean_drift=1e5 * D)
     difference = np.subtract.outer(w, w)[:, :, None, None]
-    return with_qtf(hydro, omega=w, qtf_diff=5e4 * (D[:, None] + D[None]) * np.exp(1j * difference))
+    wall = 2.0 - 2.0 * (np.multiply.outer(w, w) / np.add.outer(w**2, w**2))[:, :, None, None]
+    return with_qtf(hydro, omega=w, qtf_diff=5e4 * wall * (D[:, None] + D[None]) * np.exp(3j * difference))
 
 
 def measure() -> list[Measurement]:
@@ -38,24 +38,26 @@ def measure() -> list[Measurement]:
         sea = og.Sea(omega=omega, direction=np.full(n, 2.6), amplitude=np.abs(A), phase=np.angle(A))
         pair = [k.ravel() for k in np.indices((n, n))]
         Q = SlowDrift(hydro, "full").qtf(omega[pair[0]], omega[pair[1]], 2.6).reshape(n, n, 6)
-        part = STEP * np.arange(max(20, TIMES // n))
-        plain = _best(lambda A=A, w=omega, Q=Q, t=part: double_sum(A, w, Q, t), 1) * TIMES / len(part)
-        rows.append(Measurement(f"{n} components, double sum", 1e3 * plain, "ms"))
-        fft = _best(lambda A=A, Q=Q: single_fft(A, Q, TIMES), 3)
-        note = "all times of one period; equidistant frequencies only"
-        rows.append(Measurement(f"{n} components, single FFT of paper D", 1e3 * fft, "ms", fft / plain, "double sum", note))
+        part = STEP * np.arange(max(64, 64_000 // n))
+        seconds, notes = {}, {}
         for way in WAYS:
             form, grid = SlowDrift(hydro, way).form(sea), HarmonicGrid(omega, STEP, TIMES)
-            products = _best(lambda f=form, g=grid, A=A: f.series(g, A * g.phases(0.0)), 3)
-            name, note = f"{n} components, {way}", f"{len(form.left)} products"
-            rows.append(Measurement(name, 1e3 * products, "ms", products / plain, "double sum", note))
+            seconds[way] = _best(lambda f=form, g=grid, A=A: f.series(g, A * g.phases(0.0)))
+            notes[way] = f"{len(form.left)} products"
+        seconds["single FFT of paper D"] = _best(lambda A=A, Q=Q: single_fft(A, Q, TIMES))
+        notes["single FFT of paper D"] = "equidistant frequencies only"
+        plain = _best(lambda A=A, w=omega, Q=Q, t=part: double_sum(A, w, Q, t))
+        seconds["double sum"] = plain * TIMES / len(part)
+        for way, duration in seconds.items():
+            ratio = (None, "") if way == WAYS[0] else (duration / seconds[WAYS[0]], WAYS[0])
+            rows.append(Measurement(f"{n} components, {way}", 1e3 * duration, "ms", *ratio, notes.get(way, "")))
     return rows
 
 
-def _best(function: Callable[[], object], repeats: int) -> float:
+def _best(function: Callable[[], object]) -> float:
     function()
     times = []
-    for _ in range(repeats):
+    for _ in range(3):
         begin = perf_counter()
         function()
         times.append(perf_counter() - begin)

@@ -13,7 +13,7 @@ from ogilvie.loads.harmonics import HarmonicGrid
 Array = NDArray[Any]
 ComplexArray = NDArray[Any]
 IntArray = NDArray[np.intp]
-_TOGETHER = 64  # products evaluated at once
+_TOGETHER = 64  # products, or times, evaluated at once
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,8 +111,14 @@ def double_sum(amplitude: ComplexArray, frequency: Array, Q: ComplexArray, t: Ar
     >>> double_sum(np.ones(2), np.array([0.5, 0.7]), Q, np.array([0.0, np.pi / 0.2]))[:, 0].round(9) + 0.0
     array([4., 0.])
     """
-    e = amplitude * np.exp(1j * np.multiply.outer(t, frequency))
-    return np.einsum("ti,tj,ijd->td", e, e.conj() if difference else e, Q, optimize=True).real
+    n, found = len(amplitude), np.empty((len(t), Q.shape[2]))
+    flat = Q.reshape(n, -1).astype(complex)
+    for begin in range(0, len(t), _TOGETHER):
+        part = slice(begin, begin + _TOGETHER)
+        e = amplitude * np.exp(1j * np.multiply.outer(t[part], frequency))
+        inner = (e @ flat).reshape(-1, n, Q.shape[2])
+        found[part] = np.einsum("tj,tjd->td", e.conj() if difference else e, inner).real
+    return found
 
 
 def single_fft(amplitude: ComplexArray, Q: ComplexArray, count: int) -> Array:
