@@ -52,6 +52,7 @@ class SlowDrift:
     F(t) = Re sum_i sum_j A_i A_j* Q(w_i, w_j) exp(i (w_ei - w_ej) t) with A = a exp(i phase) and signed encounter frequencies
     w_e, evaluated as products of single sums. During a ramp the sea grows with r(t) and the force with r(t)^2. Components that
     the data do not hold (heave, roll and pitch of far-field drift) are zero: :attr:`dofs` names those that act.
+    A steady start holds the first-order motion and the mean offset; the slow motion builds up from there.
 
     The force belongs to first-order excitation and linear restoring. A nonlinear Froude-Krylov force holds part of it.
 
