@@ -189,3 +189,14 @@ def test_drift_in_two_directions_written_and_read_again(tmp_path):
 def test_defect_of_a_zero_function():
     assert symmetry_defect(np.zeros((2, 2, 1, 6)), np.zeros((2, 2, 1, 6))) == 0.0
     assert symmetry_defect(np.full((2, 2, 1, 6), np.nan), np.zeros((2, 2, 1, 6))) == 0.0
+
+
+def test_drift_of_real_vessels_written_and_read_again(shared_data, tmp_path):
+    for k, name in enumerate(("mss_wamit_semisub/semisub", "wecsim_sphere_drift/sphere")):
+        h = og.read_hydro(shared_data / name)
+        write_wamit(h, tmp_path / f"hull{k}", ulen=h.attrs["ulen"])
+        back = og.read_hydro(tmp_path / f"hull{k}")
+        for key in (key for key in h if str(key).startswith("mean_drift")):
+            size = np.nanmax(np.abs(h[key].values), initial=0.0)
+            np.testing.assert_allclose(back[key], h[key], rtol=1e-6, atol=1e-7 * size)
+        assert back.mean_drift.attrs["method"] == h.mean_drift.attrs["method"]

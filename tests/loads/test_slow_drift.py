@@ -10,6 +10,7 @@ from ogilvie.loads.base import SLOW_DRIFT, Surroundings
 from ogilvie.loads.harmonics import HarmonicGrid
 from ogilvie.loads.quadratic import double_sum, single_fft
 from ogilvie.loads.slow_drift import SlowDrift
+from ogilvie.loads.sum_frequency import SumFrequency
 from ogilvie.loads.transfer import decomposed, qtf_table
 
 W = np.linspace(0.3, 2.2, 20)
@@ -232,7 +233,7 @@ def test_mean(approximation):
     mean = np.sum(sea.amplitude[:, None] ** 2 * drift(sea.omega, sea.direction[:1])[:, 0], axis=0)
     found = load.series(sea, np.arange(0.0, 400.0, 0.5)).mean(axis=0)
     np.testing.assert_allclose(found, mean, rtol=3e-3, atol=3e-3 * np.abs(mean).max())
-    from_form = SlowDrift(HYDRO, approximation)._tabulate(sea, 0.0, 0.0).mean(0)
+    from_form = SlowDrift(HYDRO, approximation)._force.tabulate(sea, 0.0, 0.0).mean(0)
     np.testing.assert_allclose(found, from_form, rtol=1e-6, atol=1e-6 * np.abs(mean).max())
 
 
@@ -287,19 +288,49 @@ def test_decomposition(difference):
     np.testing.assert_allclose((u * size) @ (v.conj().T if difference else v.T), Q, atol=1e-12)
 
 
-def test_sum_frequencies_by_the_same_products():
+def with_sums():
     Q = full_qtf(W, HEADINGS)
-    hydro = with_qtf(HYDRO, omega=W, qtf_sum=Q + Q.swapaxes(0, 1) * (1 + 0.5j) + 0.5j * Q)
-    sea, t = scattered(), np.arange(0.0, 60.0, 0.3)
-    table = qtf_table(hydro, "qtf_sum", tolerance=1e-14)
+    return with_qtf(HYDRO, omega=W, qtf_sum=Q + Q.swapaxes(0, 1) * (1 + 0.5j) + 0.5j * Q)
+
+
+@pytest.mark.parametrize("speed", [0.0, 4.0])
+def test_sum_frequencies_by_the_same_products(speed):
+    load, sea, t = SumFrequency(with_sums(), tolerance=1e-14), scattered(), np.arange(0.0, 60.0, 0.3)
     n = len(sea.omega)
     i, j = (k.ravel() for k in np.indices((n, n)))
-    b = sea.direction
-    matrix = table.pair(sea.omega[i], b[i], sea.omega[j], b[j]).reshape(n, n, 6)
-    expected = double_sum(sea.complex_amplitude, sea.omega, matrix, t, difference=False)
-    grid = HarmonicGrid(sea.omega, 0.3, len(t))
-    found = table.form(sea.omega, b).series(grid, sea.complex_amplitude * grid.phases(0.0))
+    b = sea.direction - 0.2
+    Q = load.qtf(sea.omega[i], sea.omega[j], b[i], b[j]).reshape(n, n, 6)
+    w = sea.omega - sea.wavenumber * speed * np.cos(b)
+    expected = double_sum(sea.complex_amplitude, w, Q, t, difference=False)
+    found = load.series(sea, t, heading=0.2, speed=speed)
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-9 * np.abs(expected).max())
+    assert np.abs(found.mean(axis=0)).max() < 0.2 * np.abs(found).max()
+
+
+def test_compiled_force_at_sum_frequencies():
+    load, sea, ramp, psi = SumFrequency(with_sums()), scattered(), 20.0, np.radians(-9.0)
+    kernel = load.bind(Surroundings(BODY)).encounter(sea, ramp)
+    t = np.arange(0.0, 40.0, 2.9)
+    expected = load.series(sea, t, heading=psi) * np.sin(0.5 * np.pi * np.clip(t / ramp, 0, 1))[:, None] ** 4
+    found = np.array([kernel.force(t=s, eta=[0, 0, 0, 0, 0, psi]) for s in t])
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-8 * np.abs(expected).max())
+
+
+def test_sum_frequencies_in_a_run_beside_drift():
+    springs = og.LinearMooring(np.diag([1e5, 1e5, 1e8, 1e9, 1e9, 1e9]))
+    loads = (springs, SlowDrift(with_sums()), SumFrequency(with_sums()))
+    sea = scattered()
+    run = og.simulate(og.Vessel(BODY, loads=loads), sea, duration=20.0, dt=0.05, initial="rest")
+    for load in loads[1:]:
+        expected = load.series(sea, run.time.values)
+        found = run[f"force_{load.name}"].values
+        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-8 * np.abs(expected).max())
+    residual = BODY.matrix @ run.acceleration.values.T - sum(run[f"force_{x.name}"].values for x in loads).T
+    assert np.abs(residual).max() < 1e-6 * np.abs(run.force_sum_frequency.values).max()
+    with pytest.raises(DoubleCountingError, match="sum-frequency"):
+        og.Vessel(BODY, loads=(*loads, SumFrequency(with_sums())))
+    with pytest.raises(InputError, match="qtf_sum expected"):
+        SumFrequency(HYDRO)
 
 
 # --- the compiled force ---

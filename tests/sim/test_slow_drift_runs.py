@@ -100,3 +100,28 @@ def test_stepper_has_the_same_force(barge, data, seas):
     for _ in range(200):
         state = stepper.step()
     np.testing.assert_allclose(state.eta, run.eta.values[-1], rtol=1e-9, atol=1e-12)
+
+
+@pytest.mark.parametrize("other", ["exact", "convolution"])
+def test_other_schemes_take_the_same_table(barge, data, seas, other):
+    load = SlowDrift(data)
+    options = {"duration": 40.0, "dt": 0.05, "initial": "rest"}
+    run = og.simulate(with_drift(barge, load), seas.one, **options)
+    if other == "exact":
+        again = og.simulate(with_drift(barge, load), seas.one, method="exact", **options)
+    else:
+        again = og.simulate(og.Vessel(barge.body, loads=(*barge.others, og.Convolution(barge.K), load)), seas.one, **options)
+    np.testing.assert_allclose(again.force_slow_drift, run.force_slow_drift, rtol=1e-12)
+    scale = np.abs(run.eta).max("time")
+    assert float((np.abs(again.eta - run.eta).max("time") / scale).max()) < 0.01
+
+
+def test_a_free_ship_starts_without_an_offset_where_nothing_restores(barge, data, seas):
+    """Mean drift is balanced in heave, roll and pitch; the free modes drift away from zero."""
+    loads = (barge.others[0], *barge.others[2:], og.StateSpaceRadiation(barge.model))
+    free, bare = (og.Vessel(barge.body, loads=(*loads, *more)) for more in ((SlowDrift(data),), ()))
+    run, plain = (og.simulate(v, seas.one, duration=100.0, dt=0.1) for v in (free, bare))
+    away = (run.eta - plain.eta).values
+    assert np.abs(away[0, [0, 1, 5]]).max() < 1e-9
+    assert np.abs(away[0, [2, 4]]).min() > 0.0
+    assert np.abs(away[-1, :2]).min() > 0.1

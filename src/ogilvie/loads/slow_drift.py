@@ -2,26 +2,21 @@
 
 import warnings
 from dataclasses import dataclass, field
-from functools import partial
 from typing import Any
 
-import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from ogilvie.errors import InputError, OgilvieWarning
+from ogilvie.hydro.schema import DOFS
 from ogilvie.loads.base import SLOW_DRIFT, ComplexArray, Surroundings, Terms
-from ogilvie.loads.coverage import covered
-from ogilvie.loads.harmonics import HarmonicGrid
-from ogilvie.loads.kernel import Kernel
-from ogilvie.loads.newman import APPROXIMATIONS, DriftTable, drift_table
+from ogilvie.loads.newman import APPROXIMATIONS, drift_table
 from ogilvie.loads.quadratic import QuadraticForm
-from ogilvie.loads.slow_drift_kernel import slow_drift_kernel
-from ogilvie.loads.transfer import QtfPairTable, QtfTable, qtf_table
+from ogilvie.loads.second_order import ForceInSea, check_position
+from ogilvie.loads.transfer import qtf_table
 from ogilvie.waves.field import Sea
 
 Array = NDArray[Any]
-Table = DriftTable | QtfTable | QtfPairTable
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -63,6 +58,7 @@ class SlowDrift:
 
     Examples
     --------
+    >>> import numpy as np
     >>> from ogilvie.hydro.schema import hydro_from_arrays
     >>> w, Z = np.linspace(0.2, 2.0, 10), np.zeros((10, 6, 6))
     >>> D = np.ones((10, 1, 6)) * -1e4 * w[:, None, None] ** 2
@@ -75,7 +71,7 @@ class SlowDrift:
     hydro: xr.Dataset
     approximation: str
     position: str
-    _table: Table = field(repr=False)
+    _force: ForceInSea = field(repr=False)
     name: str = "slow_drift"
 
     def __init__(
@@ -90,19 +86,18 @@ class SlowDrift:
         known = ("full", *APPROXIMATIONS)
         if approximation not in known:
             raise InputError(f"SlowDrift: approximation, one of {', '.join(known)}, expected, {approximation!r} found.")
-        if position not in ("instantaneous", "mean"):
-            raise InputError(f"SlowDrift: position 'instantaneous' or 'mean' expected, {position!r} found.")
+        check_position(position, "SlowDrift")
         if not isinstance(hydro, xr.Dataset):
             raise InputError(f"SlowDrift: a hydrodynamic data set (xarray.Dataset) expected, {type(hydro).__name__} found.")
         if not 0.0 <= tolerance < 1.0:
             raise InputError(f"SlowDrift: a tolerance from 0 to below 1 expected, {tolerance!r} found.")
-        if approximation == "full":
-            table: Table = qtf_table(hydro, tolerance=tolerance)
-        else:
-            table = drift_table(hydro, approximation, variable, tolerance=tolerance)
-        values = {"hydro": hydro, "approximation": approximation, "position": position, "_table": table, "name": "slow_drift"}
-        for key, value in values.items():
+        full = approximation == "full"
+        table = (
+            qtf_table(hydro, tolerance=tolerance) if full else drift_table(hydro, approximation, variable, tolerance=tolerance)
+        )
+        for key, value in (("hydro", hydro), ("approximation", approximation), ("position", position), ("name", "slow_drift")):
             object.__setattr__(self, key, value)
+        object.__setattr__(self, "_force", ForceInSea(table, "SlowDrift"))
 
     @property
     def covers(self) -> frozenset[str]:
@@ -112,9 +107,7 @@ class SlowDrift:
     @property
     def dofs(self) -> tuple[str, ...]:
         """Components that the data hold."""
-        from ogilvie.hydro.schema import DOFS
-
-        return tuple(name for name, yes in zip(DOFS, self._table.known, strict=True) if yes)
+        return tuple(name for name, yes in zip(DOFS, self._force.table.known, strict=True) if yes)
 
     def qtf(
         self, omega_1: ArrayLike, omega_2: ArrayLike, direction_1: ArrayLike, direction_2: ArrayLike | None = None
@@ -128,16 +121,7 @@ class SlowDrift:
         direction_1, direction_2 : float or (n,) array
             Directions that the waves travel to, relative to the bow, rad; one for both by default.
         """
-        second = direction_1 if direction_2 is None else direction_2
-        given = [np.atleast_1d(np.asarray(v, dtype=float)) for v in (omega_1, direction_1, omega_2, second)]
-        w1, b1, w2, b2 = np.broadcast_arrays(*given)
-        lo, hi = self._table.omega[[0, -1]]
-        for w in (w1, w2):
-            if len(w) and not (w.min() >= lo * (1 - 1e-9) and w.max() <= hi * (1 + 1e-9)):
-                raise InputError(
-                    f"SlowDrift: frequencies within {lo:.4g}..{hi:.4g} rad/s expected, {w.min():.4g}..{w.max():.4g} found."
-                )
-        return self._table.pair(w1, b1, w2, b2)
+        return self._force.qtf(omega_1, omega_2, direction_1, direction_2)
 
     def form(self, sea: Sea, heading: float = 0.0) -> QuadraticForm:
         """Return the force of a sea on a vessel at a heading (rad) as products of sums over its components.
@@ -147,13 +131,7 @@ class SlowDrift:
         InputError
             A sea or a heading that the data do not cover.
         """
-        inside = covered(sea, self._table.omega, "SlowDrift")
-        part = _form(self._table, sea.omega[inside], sea.direction[inside] - heading)
-        fields = np.zeros((len(part.fields), len(sea.omega)), dtype=complex)
-        fields[:, inside] = part.fields
-        steady = np.zeros((len(sea.omega), 6))
-        steady[inside] = part.steady
-        return QuadraticForm(fields, part.left, part.right, part.weight, steady, part.difference)
+        return self._force.form(sea, heading)
 
     def series(self, sea: Sea, t: ArrayLike, *, heading: float = 0.0, speed: float = 0.0) -> Array:
         """Return the force on a vessel on a steady course that is at the origin of the sea at t = 0.
@@ -171,13 +149,7 @@ class SlowDrift:
         (n_t, 6) or (n_realisations, n_t, 6) array
             In axes along the heading, about O.
         """
-        times = np.asarray(t, dtype=float)
-        step = float(times[1] - times[0]) if times.ndim == 1 and len(times) > 1 else 0.0
-        if not (step > 0.0 and np.allclose(np.diff(times), step, rtol=1e-6, atol=1e-9)):
-            raise InputError("SlowDrift.series: two or more equally spaced, increasing times expected, others found.")
-        table = self._tabulate(sea, heading, speed)
-        force = np.array([table.series(r, float(times[0]), step, len(times)) for r in range(sea.n_realisations)])
-        return force if sea.amplitude.ndim == 2 else force[0]
+        return self._force.series(sea, t, heading, speed)
 
     def bind(self, surroundings: Surroundings) -> Terms:
         """Return the arrays for the time loop."""
@@ -189,57 +161,4 @@ class SlowDrift:
                 OgilvieWarning,
                 stacklevel=2,
             )
-        encounter = partial(_encounter, self, surroundings.heading) if self.position == "instantaneous" else None
-        return Terms(table=self._tabulate, encounter=encounter)
-
-    def _tabulate(self, sea: Sea, heading: float, speed: float) -> "DriftSeries":
-        frequency = sea.omega - sea.wavenumber * speed * np.cos(sea.direction - heading)
-        return DriftSeries(self.form(sea, heading), frequency, np.atleast_2d(sea.complex_amplitude))
-
-
-@dataclass(frozen=True, eq=False)
-class DriftSeries:
-    """The force of a sea on a vessel on a steady course, as tables over time.
-
-    Parameters
-    ----------
-    form : QuadraticForm
-    frequency : (n,) array
-        Of encounter, rad/s.
-    amplitude : (r, n) complex array
-    """
-
-    form: QuadraticForm
-    frequency: Array
-    amplitude: ComplexArray
-    _grids: dict[tuple[float, int], HarmonicGrid] = field(default_factory=dict, repr=False)
-
-    def series(self, realisation: int, start: float, step: float, count: int) -> Array:
-        """Return the force (count, 6) of a realisation at times from `start`, `step` apart (s)."""
-        key = (step, count)
-        if key not in self._grids:
-            self._grids[key] = HarmonicGrid(self.frequency, step, count)
-        grid = self._grids[key]
-        return self.form.series(grid, self.amplitude[realisation] * grid.phases(start))
-
-    def mean(self, realisation: int) -> Array:
-        """Return the mean force (6,) of a realisation."""
-        return np.asarray(np.abs(self.amplitude[realisation]) ** 2 @ self.form.diagonal())
-
-
-def _form(table: Table, omega: Array, direction: Array) -> QuadraticForm:
-    """Return the form of a table, with errors in the name of this load."""
-    lo, hi = table.omega[[0, -1]]
-    try:
-        return table.form(np.clip(omega, lo, hi), direction)
-    except InputError as error:
-        raise InputError(str(error).replace("WaveExcitation", "SlowDrift")) from None
-
-
-def _encounter(load: SlowDrift, heading: float, sea: Sea, ramp: float) -> Kernel:
-    """Return the compiled force of the sea where the vessel is."""
-    inside = covered(sea, load._table.omega, "SlowDrift")
-    w, direction = sea.omega[inside], sea.direction[inside]
-    return slow_drift_kernel(
-        lambda psi: _form(load._table, w, direction - psi), load._table.headings, sea, inside, heading=heading, ramp=ramp
-    )
+        return Terms(table=self._force.tabulate, encounter=self._force.encounter(surroundings.heading, self.position))

@@ -168,7 +168,9 @@ def qtf_table(hydro: xr.Dataset, key: str = "qtf_diff", *, tolerance: float = 1e
     """
     name = f"{key}_pairs" if f"{key}_pairs" in hydro else key
     if name not in hydro:
-        raise InputError(f"SlowDrift: {key} expected in the data set, not found. Read a .12d file, or use ogilvie.with_qtf.")
+        raise InputError(
+            f"{key} expected in the data set, not found. Read a .12d or .12s file, or use ogilvie.hydro.qtf.with_qtf."
+        )
     hydro = symmetric_qtf(hydro)
     dofs = tuple(str(d) for d in hydro.influenced_dof.values)
     Q = hydro[name].values

@@ -1,4 +1,4 @@
-"""The slow-drift force of a sea on a vessel that may be anywhere in it, at any heading: a compiled load."""
+"""The second-order force of a sea on a vessel that may be anywhere in it, at any heading: a compiled load."""
 
 from collections.abc import Callable
 from typing import Any
@@ -19,11 +19,11 @@ _FAST = {"reassoc", "contract", "nsz", "arcp"}
 _STEP = np.radians(3.0)  # of the table over the vessel's heading, rad
 _TURNS_LEAST = np.radians(2.0)  # range of headings below which large motions make no sense
 _LARGEST = 2e7  # numbers in the table
-_HEAD = 7  # n, headings, first heading, step, periodic, ramp, real
+_HEAD = 8  # n, headings, first heading, step, periodic, ramp, real, difference
 _BLOCK = 2  # fields, products: before the numbers of each heading
 
 
-def slow_drift_kernel(
+def second_order_kernel(
     form: Callable[[float], QuadraticForm],
     tabulated: Headings,
     sea: Sea,
@@ -31,6 +31,7 @@ def slow_drift_kernel(
     *,
     heading: float,
     ramp: float,
+    who: str,
 ) -> Kernel:
     """Return the force as a function of time, place and heading.
 
@@ -47,6 +48,8 @@ def slow_drift_kernel(
         Of the vessel at first, rad.
     ramp : float
         s; the sea grows from nothing with r = sin^2, the force with r^2.
+    who : str
+        Name of the load in errors.
 
     Raises
     ------
@@ -55,15 +58,16 @@ def slow_drift_kernel(
 
     Notes
     -----
-    F = Re sum_p weight_p X_left X_right*, X_k = sum_j f_kj(psi) a_j exp(i (omega_j t - k_j (x cos b_j + y sin b_j) + phase_j)),
-    in the horizontal axes that turn with the vessel; x and y are those of O. Tabulated every 3 degrees of psi, linear between.
+    F = Re sum_p weight_p X_left X_right* (without the conjugate at sum frequencies), X_k = sum_j f_kj(psi) a_j exp(i (omega_j t
+    - k_j (x cos b_j + y sin b_j) + phase_j)), in the horizontal axes that turn with the vessel; x and y are those of O.
+    Tabulated every 3 degrees of psi, linear between.
     """
     direction = sea.direction[inside]
     limits = reachable(tabulated, direction, heading)
     if limits is not None and limits[1] - limits[0] < _TURNS_LEAST:
         raise InputError(
-            "SlowDrift: large motions need data for the headings that the vessel takes; for this sea they hold from "
-            f"{np.degrees(limits[0]):.4g} to {np.degrees(limits[1]):.4g} deg only. Give drift for more headings, or "
+            f"{who}: large motions need data for the headings that the vessel takes; for this sea they hold from "
+            f"{np.degrees(limits[0]):.4g} to {np.degrees(limits[1]):.4g} deg only. Give data for more headings, or "
             "position='mean' to take the force at the mean heading."
         )
     grid = _headings(limits)
@@ -76,14 +80,14 @@ def slow_drift_kernel(
     blocks = [_packed(f, real=real) for f in forms]
     if sum(map(len, blocks)) > _LARGEST:
         raise InputError(
-            f"SlowDrift: at most {_LARGEST:.3g} numbers in the table over the heading expected, {sum(map(len, blocks)):.3g} "
+            f"{who}: at most {_LARGEST:.3g} numbers in the table over the heading expected, {sum(map(len, blocks)):.3g} "
             "found. Raise the tolerance, take fewer components, a Newman approximation, or position='mean'."
         )
-    head = _head(len(w), grid, limits, ramp, real=real)
+    head = _head(len(w), grid, limits, ramp, real=real, difference=forms[0].difference)
     places = _HEAD + 3 * len(w) + len(grid) + np.cumsum([0, *map(len, blocks)])[:-1]
     data = np.concatenate([head, w, k * np.cos(direction), k * np.sin(direction), places, *blocks])
     own = np.concatenate([amplitude, phase], axis=1)
-    return Kernel(_slow_drift, data, own, _limits(limits), steady=False)
+    return Kernel(_second_order, data, own, _limits(limits), steady=False)
 
 
 def _headings(limits: tuple[float, float] | None) -> Array:
@@ -100,8 +104,11 @@ def _limits(limits: tuple[float, float] | None) -> str:
     return f"headings of the vessel {lo:.4g}..{hi:.4g} deg in this sea"
 
 
-def _head(n: int, grid: Array, limits: tuple[float, float] | None, ramp: float, *, real: bool) -> Array:
-    return np.array([n, len(grid), grid[0], grid[1] - grid[0], float(limits is None), ramp, float(real)])
+def _head(
+    n: int, grid: Array, limits: tuple[float, float] | None, ramp: float, *, real: bool, difference: bool = True
+) -> Array:
+    periodic = limits is None
+    return np.array([n, len(grid), grid[0], grid[1] - grid[0], periodic, ramp, real, difference], dtype=float)
 
 
 def _packed(form: QuadraticForm, *, real: bool) -> Array:
@@ -151,8 +158,8 @@ def _add_turned(x, data, total, force):
 
 
 @njit(cache=True, nogil=True, fastmath=_FAST)
-def _add_products(block, n, real, share, cosine, sine, total):
-    """total (6,) += share times the products of one heading."""
+def _add_products(block, n, real, sign, share, cosine, sine, total):
+    """total (6,) += share times the products of one heading; sign +1 with a conjugate factor, -1 without."""
     m, p = int(block[0]), int(block[1])
     re, im = np.empty(m), np.empty(m)
     for k in range(m):
@@ -170,13 +177,13 @@ def _add_products(block, n, real, share, cosine, sine, total):
     at = _BLOCK + (m if real else 2 * m) * n
     for q in range(p):
         i, j = int(block[at + q]), int(block[at + p + q])
-        product = share * (re[i] * re[j] + im[i] * im[j])
+        product = share * (re[i] * re[j] + sign * im[i] * im[j])
         for d in range(6):
             total[d] += block[at + 2 * p + 6 * q + d] * product
 
 
 @load_kernel
-def _slow_drift(x, data, own, force):
+def _second_order(x, data, own, force):
     n, n_h, real = int(data[0]), int(data[1]), data[6] > 0.5
     here, there, s = _place(x[ETA + 5], data)
     if here < 0:
@@ -191,8 +198,9 @@ def _slow_drift(x, data, own, force):
     for j in range(n):
         cosine[j] *= own[j]
         sine[j] *= own[j]
-    _add_products(data[int(places[here]) :], n, real, 1.0 - s, cosine, sine, total)
-    _add_products(data[int(places[there]) :], n, real, s, cosine, sine, total)
+    sign = 1.0 if data[7] > 0.5 else -1.0
+    _add_products(data[int(places[here]) :], n, real, sign, 1.0 - s, cosine, sine, total)
+    _add_products(data[int(places[there]) :], n, real, sign, s, cosine, sine, total)
     _add_turned(x, data, total, force)
 
 
