@@ -138,7 +138,9 @@ def _fpso(shared: Path) -> tuple[list[dict[str, Any]], dict[str, Any]]:
         checks.append(
             _check(f"FPSO, {way}: products and FFT against the double sum", away, 0.0, 1e-6, note=f"{len(form.left)} products")
         )
-        checks.append(_check(f"FPSO, {way}: mean sway force / sum a^2 D", found[:, 1].mean() / mean[1], 1.0, 0.03))
+        note = "between the data's frequencies a spline of Q is not one of D: the phase turns" if way == "full" else ""
+        ratio = found[:, 1].mean() / mean[1]
+        checks.append(_check(f"FPSO, {way}: mean sway force / sum a^2 D", ratio, 1.0, 0.03, note=note))
         series[way] = found
         spectra[way] = _spectra(load, many, t, Q[:, :, 1])
     for way in WAYS:
