@@ -36,7 +36,8 @@ qtf_diff_pairs, _sum_pairs  omega_1, omega_2, qtf_pair, influenced_dof     optio
 Two wave directions at once are a list of pairs: the coordinates ``drift_direction_1(drift_pair)``, ``drift_direction_2``,
 ``qtf_direction_1(qtf_pair)``, ``qtf_direction_2`` (rad) name them. With amplitudes a1, a2 the forces are
 Re sum sum a1 a2* Q_diff exp(i(w1 - w2)t) and Re sum sum a1 a2 Q_sum exp(i(w1 + w2)t), over all ordered pairs; the mean drift of
-one wave is |a|^2 mean_drift.
+one wave is |a|^2 mean_drift. Exchanging the waves (frequencies and directions) makes Q_diff its conjugate and leaves Q_sum as
+it is; :mod:`ogilvie.hydro.qtf` puts such functions in, checks this and fills gaps.
 
 Attributes: rho, g, water_depth (inf allowed), speed, reference_point, time_convention = "exp(+iwt)", name, source.
 Axes x forward, y port, z up; everything about O; elevation = Re exp(i(omega t - k(x cos b + y sin b))).

@@ -95,16 +95,17 @@ def quadratic_variables(quadratics: Mapping[str, Quadratic], parameters: Paramet
         full = np.full((len(omega), len(omega), len(every), len(axes.modes)), np.nan + 0j)
         full[np.ix_(at, at, where)] = dimensional
         name = "qtf_diff" if suffix == "12d" else "qtf_sum"
+        said = {"filled_by_symmetry": table.filled} if table.filled else {}
         alone = every[:, 0] == every[:, 1]
         same = axes.degrees is not None and np.array_equal(every[alone, 0], axes.degrees)
         if same and axes.degrees is not None:
             dims = ("omega_1", "omega_2", "wave_direction", "influenced_dof")
             single = {**coords, "wave_direction": np.deg2rad(axes.degrees)}
-            variables[name] = xr.DataArray(full[:, :, alone], dims=dims, coords=single)
+            variables[name] = xr.DataArray(full[:, :, alone], dims=dims, coords=single, attrs=said)
         if not same or not alone.all():
             dims = ("omega_1", "omega_2", "qtf_pair", "influenced_dof")
             two = {f"qtf_direction_{k + 1}": ("qtf_pair", np.deg2rad(every[:, k])) for k in (0, 1)}
-            variables[f"{name}_pairs"] = xr.DataArray(full, dims=dims, coords={**coords, **two})
+            variables[f"{name}_pairs"] = xr.DataArray(full, dims=dims, coords={**coords, **two}, attrs=said)
     return xr.Dataset(variables)
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ogilvie.hydro.qtf import SYMMETRIC_WITHIN
 from ogilvie.hydro.wamit_text import Array, Table, fail, read_table
 
 ComplexArray = NDArray[np.complex128]
@@ -59,6 +60,7 @@ class Quadratic:
     pairs: Array
     modes: tuple[int, ...]
     values: ComplexArray
+    filled: int = 0  # pairs of frequencies of which the other half was printed
 
 
 def radiation(path: Path) -> Radiation:
@@ -121,7 +123,7 @@ def quadratic(path: Path, *, difference: bool) -> Quadratic:
     Notes
     -----
     The half that is not printed follows from Q_diff(2, 1) = conj Q_diff(1, 2) and Q_sum(2, 1) = Q_sum(1, 2), frequencies and
-    directions exchanged together. Pairs that are in neither half are NaN.
+    directions exchanged together. Where both halves are printed they have to agree. Pairs that are in neither half are NaN.
     """
     table = read_table(path, widths=(9,))
     mode = _modes(table, 4)
@@ -144,8 +146,11 @@ def quadratic(path: Path, *, difference: bool) -> Quadratic:
     values = np.full(shape, np.nan + 0j)
     values[f1, f2, p, m] = _complex(table, 7)
     other = values.swapaxes(0, 1)[:, :, mirror]
-    values = np.where(np.isnan(values), other.conj() if difference else other, values)
-    return Quadratic(path, axis, pairs, tuple(modes.tolist()), values)
+    other = other.conj() if difference else other
+    _check_halves(table, values, other, (f1, f2, p, m))
+    missing = np.isnan(values) & ~np.isnan(other)
+    filled = int(missing.any(axis=(2, 3)).sum())
+    return Quadratic(path, axis, pairs, tuple(modes.tolist()), np.where(missing, other, values), filled)
 
 
 def hydrostatics(path: Path) -> Array:
@@ -235,6 +240,18 @@ def _check_couplings(table: Table, axis: Array, f: IntArray, given: NDArray[np.b
     if bare.any():
         i = int(np.argmax(bare)) + 1
         fail(table.path, f"the diagonal ({i},{i}) of a mode that has couplings", "none", "Couplings are missing; re-export.")
+
+
+def _check_halves(table: Table, values: ComplexArray, other: ComplexArray, keys: tuple[IntArray, ...]) -> None:
+    """Refuse two printed halves that contradict each other."""
+    size = np.nanmax(np.abs(values), axis=(0, 1, 2), initial=0.0)
+    wrong = (np.abs(values - other) > SYMMETRIC_WITHIN * size)[keys]  # False for NaN
+    if wrong.any():
+        row = int(np.argmax(wrong))
+        there = other[tuple(key[row] for key in keys)]
+        found = f"{values[tuple(key[row] for key in keys)]:.6e}"
+        advice = "Two runs may have been joined; keep one."
+        table.fail(row, f"what the other half of the file says, {there:.6e},", found, advice)
 
 
 def _check_modes_complete(table: Table, key: IntArray, n_modes: int) -> None:

@@ -2,7 +2,7 @@
 
 import os
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -11,11 +11,11 @@ import xarray as xr
 from ogilvie.errors import InputError
 from ogilvie.hydro.schema import DOFS, validate
 from ogilvie.hydro.wamit import wamit_files
+from ogilvie.hydro.wamit_format import exponential, mode_numbers, periods, polar, rotations
 from ogilvie.hydro.wamit_text import Array, read_text_lines
+from ogilvie.hydro.wamit_write_drift import drift_tables, quadratic_tables
 
 _FORCES = {"3": "excitation_force", "3fk": "Froude_Krylov_force", "3sc": "diffraction_force"}
-_DRIFTS = {"7": "mean_drift_control_surface", "8": "mean_drift_momentum", "9": "mean_drift_pressure"}
-_BODY_DRIFT = "mean_drift_pressure_body"
 _MARK = "written by ogilvie"
 
 
@@ -34,9 +34,9 @@ def write_wamit(hydro: xr.Dataset, stem: str | Path, *, ulen: float = 1.0) -> tu
     Returns
     -------
     tuple of Path
-        `.1`, and as far as the data are there `.3`, `.3fk`, `.3sc`, `.4`, `.7`, `.8`, `.9`, `.hst`; a `.out` that holds no more
-        than the constants (gravity, length scale, depth, density), so that the set can be read again; and, with inertia, a
-        `.frc` in alternative form 2 with mass, external damping and stiffness.
+        `.1`, and as far as the data are there `.3`, `.3fk`, `.3sc`, `.4`, `.7`, `.8`, `.9`, `.12d`, `.12s`, `.hst`; a `.out`
+        that holds no more than the constants (gravity, length scale, depth, density), so that the set can be read again; and,
+        with inertia, a `.frc` in alternative form 2 with mass, external damping and stiffness.
 
     Raises
     ------
@@ -72,14 +72,10 @@ def write_wamit(hydro: xr.Dataset, stem: str | Path, *, ulen: float = 1.0) -> tu
     scale = hydro.attrs["rho"] * hydro.attrs["g"]
     for suffix, key in _FORCES.items():
         if key in hydro:
-            texts[suffix] = _response(hydro, hydro[key].values / (scale * ulen ** (2 + _rotations(hydro))))
+            texts[suffix] = _response(hydro, hydro[key].values / (scale * ulen ** (2 + rotations(hydro))))
     if "motion_rao" in hydro:
-        texts["4"] = _response(hydro, hydro.motion_rao.values * ulen ** _rotations(hydro))
-    drifts = {suffix: key for suffix, key in _DRIFTS.items() if key in hydro}
-    if not drifts and "mean_drift" in hydro:  # of unknown origin: .9 holds all components, .8 the horizontal ones
-        drifts = {"9" if np.isfinite(hydro.mean_drift.values).all() else "8": "mean_drift"}
-    for suffix, key in drifts.items():
-        texts[suffix] = _drift(hydro, key, scale * ulen ** (1 + _rotations(hydro)))
+        texts["4"] = _response(hydro, hydro.motion_rao.values * ulen ** rotations(hydro))
+    texts |= drift_tables(hydro, ulen) | quadratic_tables(hydro, ulen)
     if "hydrostatic_stiffness" in hydro:
         texts["hst"] = _hydrostatics(hydro, ulen)
     if "inertia_matrix" in hydro:
@@ -118,24 +114,8 @@ def _write_all(texts: dict[Path, str]) -> tuple[Path, ...]:
     return tuple(texts)
 
 
-def _rotations(hydro: xr.Dataset) -> Array:
-    """Return 0.0 for translations and 1.0 for rotations."""
-    return np.array([float(DOFS.index(name) > 2) for name in hydro.influenced_dof.values])
-
-
-def _modes(hydro: xr.Dataset) -> list[int]:
-    return [DOFS.index(name) + 1 for name in hydro.influenced_dof.values]
-
-
-def _rows(hydro: xr.Dataset) -> Iterator[tuple[int, float]]:
-    """Yield index and period of each frequency, shortest period first, as WAMIT's users list them."""
-    omega = hydro.omega.values
-    for f in range(len(omega))[::-1]:
-        yield f, 2.0 * np.pi / omega[f]
-
-
 def _radiation(hydro: xr.Dataset, ulen: float) -> str:
-    k, modes = _rotations(hydro), _modes(hydro)
+    k, modes = rotations(hydro), mode_numbers(hydro)
     unit = hydro.attrs["rho"] * ulen ** (3 + k[:, None] + k[None, :])
     A = hydro.added_mass.values / unit
     B = hydro.radiation_damping.values / (unit * hydro.omega.values[:, None, None])
@@ -145,63 +125,32 @@ def _radiation(hydro: xr.Dataset, ulen: float) -> str:
     for matrix in special.values():
         occurs |= matrix != 0
     couplings = [(i, j, modes[i], modes[j]) for i, j in np.argwhere(occurs | occurs.T)]
-    lines = [f" {p:13.6E}{mi:6d}{mj:6d}{_e(M[i, j])}\n" for p, M in special.items() for i, j, mi, mj in couplings]
-    for f, period in _rows(hydro):
-        lines += [f" {period:13.6E}{mi:6d}{mj:6d}{_e(A[f, i, j])}{_e(B[f, i, j])}\n" for i, j, mi, mj in couplings]
+    lines = [f" {p:13.6E}{mi:6d}{mj:6d}{exponential(M[i, j])}\n" for p, M in special.items() for i, j, mi, mj in couplings]
+    for f, period in periods(hydro):
+        for i, j, mi, mj in couplings:
+            lines.append(f" {period:13.6E}{mi:6d}{mj:6d}{exponential(A[f, i, j])}{exponential(B[f, i, j])}\n")
     return "".join(lines)
 
 
-def _e(value: float) -> str:
-    """Return 14 characters; exponents have two digits, so what is below 1e-99 is zero."""
-    size = abs(value)
-    if size >= 9.9999e99:
-        raise InputError(
-            f"write_wamit: numbers below 1e100 expected, {value:g} found. Choose a larger ulen or correct the data."
-        )
-    return f"{value if size > 1e-99 else 0.0:14.6E}"
-
-
-def _polar(value: complex) -> str:
-    phase = np.degrees(np.angle(value)) if value != 0 else 90.0
-    return f"{_e(abs(value))}{phase:14.6E}{_e(value.real)}{_e(value.imag)}\n"
-
-
 def _response(hydro: xr.Dataset, values: np.ndarray) -> str:
-    modes, degrees = _modes(hydro), np.degrees(hydro.wave_direction.values)
+    modes, degrees = mode_numbers(hydro), np.degrees(hydro.wave_direction.values)
     return "".join(
-        f" {period:13.6E}{degrees[b]:14.6E}{mode:6d}{_polar(complex(values[f, b, m]))}"
-        for f, period in _rows(hydro)
+        f" {period:13.6E}{degrees[b]:14.6E}{mode:6d}{polar(complex(values[f, b, m]))}"
+        for f, period in periods(hydro)
         for b in range(len(degrees))
         for m, mode in enumerate(modes)
-    )
-
-
-def _drift(hydro: xr.Dataset, key: str, unit: Array) -> str:
-    """Return one file of mean drift, the components about the moving origin with negative modes; NaN stands for no row."""
-    modes, degrees = _modes(hydro), np.degrees(hydro.wave_direction.values)
-    columns = [(mode, hydro[key].values[:, :, m] / unit[m]) for m, mode in enumerate(modes)]
-    if key == "mean_drift_pressure" and _BODY_DRIFT in hydro:
-        columns += [(-mode, hydro[_BODY_DRIFT].values[:, :, m] / unit[m]) for m, mode in enumerate(modes) if mode > 3]
-    columns = [(mode, values) for mode, values in columns if not np.isnan(values).all()]
-    if any(np.isnan(values).any() for _, values in columns):
-        raise InputError(f"{key}: components known everywhere or nowhere expected, some values are NaN. Drop the component.")
-    return "".join(
-        f" {period:13.6E}{degrees[b]:14.6E}{degrees[b]:14.6E}{mode:6d}{_polar(complex(values[f, b]))}"
-        for f, period in _rows(hydro)
-        for b in range(len(degrees))
-        for mode, values in columns
     )
 
 
 def _hydrostatics(hydro: xr.Dataset, ulen: float) -> str:
     C, k = _full(hydro, "hydrostatic_stiffness"), (np.arange(6) > 2).astype(float)
     C = C / (hydro.attrs["rho"] * hydro.attrs["g"] * ulen ** (2 + k[:, None] + k[None, :]))
-    return "".join(f"{i + 1:6d}{j + 1:6d}{_e(C[i, j]):>15s}\n" for i in range(6) for j in range(6))
+    return "".join(f"{i + 1:6d}{j + 1:6d}{exponential(C[i, j]):>15s}\n" for i in range(6) for j in range(6))
 
 
 def _full(hydro: xr.Dataset, key: str) -> Array:
     """Return the 6 x 6 matrix of all modes, zero where the data set has no dof."""
-    M, at = np.zeros((6, 6)), np.array(_modes(hydro)) - 1
+    M, at = np.zeros((6, 6)), np.array(mode_numbers(hydro)) - 1
     M[np.ix_(at, at)] = hydro[key].values
     return M
 

@@ -53,6 +53,26 @@ class Encounter(Protocol):
         ...
 
 
+class ForceSeries(Protocol):
+    """Force of a sea on a vessel on a steady course, known before the run."""
+
+    def series(self, realisation: int, start: float, step: float, count: int) -> Array:
+        """Return the force (count, 6) at times from `start`, `step` apart (s), in axes along the mean heading."""
+        ...
+
+    def mean(self, realisation: int) -> Array:
+        """Return its mean (6,)."""
+        ...
+
+
+class SecondOrderTable(Protocol):
+    """Force of second order in the wave amplitude, for a vessel that is at the origin of the sea at t = 0."""
+
+    def __call__(self, sea: Sea, heading: float, speed: float) -> ForceSeries:
+        """Return the force of the full sea; the time loop multiplies it by the square of the ramp."""
+        ...
+
+
 @dataclass(frozen=True, eq=False)
 class MemoryModel:
     """Memory force mu = C x, x' = A x + B nu in all six degrees of freedom: A (n, n), B (n, 6), C (6, n)."""
@@ -92,12 +112,14 @@ class Terms:
     memory : MemoryModel or MemoryKernel, optional
     wave : callable, optional
         Complex force per metre of wave amplitude.
+    table : callable, optional
+        Force of second order in the wave amplitude, made before the run.
     kernel : Kernel, optional
         Compiled force that is not linear in the motion; see :mod:`ogilvie.loads.kernel`.
     small : Terms, optional
         What stands for the whole load in small motions; without it a load with a kernel is for large motions only.
     encounter : callable, optional
-        Compiled force of the waves where the vessel is, in place of `wave` when motions are large.
+        Compiled force of the waves where the vessel is, in place of `wave` and `table` when motions are large.
     control : Sampled, optional
         Compiled control law, sampled and held.
     callback : Callback, optional
@@ -108,7 +130,7 @@ class Terms:
     Notes
     -----
     Force on the body = constant - added_mass nu' - damping nu - stiffness eta - mu
-    + Re sum_j wave_j a_j exp(i (w_e t + phase)_j) + kernel + encounter + control + callback.
+    + Re sum_j wave_j a_j exp(i (w_e t + phase)_j) + table + kernel + encounter + control + callback.
     """
 
     added_mass: Array = field(default_factory=lambda: np.zeros((6, 6)))
@@ -118,6 +140,7 @@ class Terms:
     damping_ratio: Array = field(default_factory=lambda: np.zeros(6))
     memory: MemoryModel | MemoryKernel | None = None
     wave: WaveTransfer | None = None
+    table: SecondOrderTable | None = None
     kernel: Kernel | None = None
     small: "Terms | None" = None
     encounter: Encounter | None = None

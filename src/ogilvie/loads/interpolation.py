@@ -52,10 +52,10 @@ def symmetric_headings(hydro: xr.Dataset, table: ComplexArray) -> tuple[Headings
     keep = np.concatenate([[True], np.diff(b) > _TOLERANCE])
     if len(b) > 1 and b[0] + TURN - b[-1] <= _TOLERANCE:
         keep[-1] = False
-    return _unwrapped(b[keep], table[:, keep])
+    return unwrapped(b[keep], table[:, keep])
 
 
-def _unwrapped(b: Array, table: ComplexArray) -> tuple[Headings, ComplexArray]:
+def unwrapped(b: Array, table: ComplexArray) -> tuple[Headings, ComplexArray]:
     """Begin after the largest gap, so that the headings ascend; no gap larger than the others means all around."""
     if len(b) == 1:
         return Headings(b, False), table
@@ -102,12 +102,12 @@ def evaluate(omega: Array, headings: Headings, table: ComplexArray, w: Array, b:
     if len(omega) == 1:
         along = np.broadcast_to(table[:, used], (len(w), len(used), table.shape[2]))
     else:
-        along = _spline(omega, table[:, used], w)
+        along = interpolated(omega, table[:, used], w)
     return np.einsum("nb,nbi->ni", across[:, used], along)
 
 
-def heading_weights(headings: Headings, b: Array) -> Array:
-    """Return the weights (n, n_b) of the tabulated headings in the value at each heading b (n,).
+def heading_weights(headings: Headings, b: Array, *, derivative: int = 0) -> Array:
+    """Return the weights (n, n_b) of the tabulated headings in the value, or a derivative, at each heading b (n,).
 
     Raises
     ------
@@ -121,14 +121,16 @@ def heading_weights(headings: Headings, b: Array) -> Array:
         from scipy.interpolate import CubicSpline
 
         ring = np.eye(len(t))[np.append(np.arange(len(t)), 0)]
-        return CubicSpline(np.append(t, t[0] + TURN), ring, bc_type="periodic")(x)
+        return CubicSpline(np.append(t, t[0] + TURN), ring, bc_type="periodic")(x, derivative)
     x = np.clip(x, t[0], t[-1])
-    return np.ones((len(b), 1)) if len(t) == 1 else _spline(t, np.eye(len(t)), x)
+    if len(t) == 1:
+        return np.full((len(b), 1), float(derivative == 0))
+    return interpolated(t, np.eye(len(t)), x, derivative=derivative)
 
 
 def evaluate_turning(omega: Array, headings: Headings, table: ComplexArray, w: Array, b: Array) -> ComplexArray:
     """Return the forces (n_h, n, 6) at frequencies w (n,) and headings b (n_h, n) from the table (n_w, n_b, 6)."""
-    along = np.broadcast_to(table, (len(w), *table.shape[1:])) if len(omega) == 1 else _spline(omega, table, w)
+    along = np.broadcast_to(table, (len(w), *table.shape[1:])) if len(omega) == 1 else interpolated(omega, table, w)
     across = heading_weights(headings, b.ravel()).reshape(*b.shape, -1)
     return np.einsum("hnb,nbi->hni", across, along)
 
@@ -188,8 +190,8 @@ def _refuse_outside(headings: Headings, x: Array) -> None:
         )
 
 
-def _spline(x: Array, y: NDArray, at: Array) -> NDArray:
+def interpolated(x: Array, y: NDArray, at: Array, *, derivative: int = 0) -> NDArray:
     """Cubic spline through the rows of y (not-a-knot), of lower degree where there are fewer than four points."""
     from scipy.interpolate import make_interp_spline
 
-    return make_interp_spline(x, y, k=min(3, len(x) - 1))(at)
+    return make_interp_spline(x, y, k=min(3, len(x) - 1))(at, derivative)

@@ -76,14 +76,20 @@ class Engine:
         return np.zeros(0, dtype=complex) if self.seaway is None else self._grid.phases(origin + block * self.block * self.dt)
 
     def wave_series(self, realisation: int, block: int, origin: float, phases: ComplexArray) -> Array:
-        """Return force (6) and elevation at half steps through a block, (2 block + 1, 7 or more)."""
+        """Return force (6), elevation and forces of the loads at half steps through a block, (2 block + 1, 7 or more)."""
         if self.seaway is None:
             return np.zeros((2 * self.block + 1, 7))
         series = self._grid.series(self.seaway.amplitude[realisation] * phases, self._transfer)
         t = origin + block * self.block * self.dt
+        grown: Array | float = 1.0
         if t < self.ramp:
-            series *= ramp_factor(t + 0.5 * self.dt * np.arange(len(series)), self.ramp)[:, None]
-        return series
+            grown = ramp_factor(t + 0.5 * self.dt * np.arange(len(series)), self.ramp)[:, None]
+            series *= grown
+        if not self.seaway.tables:
+            return series
+        second = [table.series(realisation, t, 0.5 * self.dt, len(series)) * grown**2 for table in self.seaway.tables]
+        series[:, :6] += np.sum(second, axis=0)
+        return np.concatenate([series, *second], axis=1)
 
     @cached_property
     def signals(self) -> tuple[tuple[str, str], ...]:
@@ -188,9 +194,17 @@ class Engine:
         w, a = self.seaway.frequency, self.seaway.amplitude
         X = self.seaway.response(self.about)
         V = 1j * w[:, None] * X - self.system.speed * X @ TURNING.T
-        y[:, :6] += combine_harmonics(a, X)
+        y[:, :6] += combine_harmonics(a, X) + self._drifted()
         y[:, 6:] = combine_harmonics(a, V)
         return self._in_world(y), self.scheme.steady(w, V, a), 0.0
+
+    def _drifted(self) -> Array:
+        """Return the displacements (r, 6) that balance the mean drift forces where anything does."""
+        assert self.seaway is not None
+        if not self.seaway.second:
+            return np.zeros((self.realisations, 6))
+        F = np.array([self.seaway.mean_force(r) for r in range(self.realisations)])
+        return np.linalg.lstsq(self.about.stiffness, F.T, rcond=None)[0].T
 
     def _in_world(self, y: Array) -> Array:
         """Turn displacements from the steady frame, which begins at the origin, into poses and whole velocities."""

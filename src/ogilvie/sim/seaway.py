@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ogilvie.errors import InputError
+from ogilvie.loads.base import ForceSeries
 from ogilvie.sim.system import LinearSystem
 from ogilvie.waves.field import Sea
 
@@ -33,6 +34,8 @@ class Seaway:
     tabulated : tuple of bool
         Whether the force of each wave load comes from a table made before the run, for the vessel's mean position.
     sea : Sea
+    second : tuple of (str, ForceSeries, bool)
+        Name and force of each load of second order, and whether it comes from a table made before the run.
     """
 
     frequency: Array
@@ -42,21 +45,40 @@ class Seaway:
     batched: bool
     tabulated: tuple[bool, ...]
     sea: Sea
+    second: tuple[tuple[str, ForceSeries, bool], ...] = ()
 
     @property
     def transfer(self) -> ComplexArray:
-        """Coefficients (n, 7 or more): total force (6), elevation, then the force of each load if there are several."""
+        """Coefficients (n, 7 or more): total force (6), elevation, then the force of each load of :meth:`columns`."""
         n = len(self.frequency)
         force = self.force[np.array(self.tabulated, dtype=bool)]
         parts = [force.sum(axis=0), np.ones((n, 1), dtype=complex)]
-        if len(force) > 1:
+        if self._apart:
             parts.extend(force)
         return np.ascontiguousarray(np.concatenate(parts, axis=1))
 
     def columns(self) -> dict[str, int]:
-        """Where the six columns of each wave load's force begin in :attr:`transfer`."""
-        names = [name for name, yes in zip(self.names, self.tabulated, strict=True) if yes]
-        return {name: 0 if len(names) == 1 else 7 + 6 * i for i, name in enumerate(names)}
+        """Where the six columns of each load's force begin in :attr:`transfer`, then those of second order."""
+        names = self._tables()
+        return {name: 7 + 6 * i if self._apart else 0 for i, name in enumerate(names)}
+
+    @property
+    def tables(self) -> tuple[ForceSeries, ...]:
+        """Forces of second order that come from tables."""
+        return tuple(force for _, force, yes in self.second if yes)
+
+    @property
+    def _apart(self) -> bool:
+        """Whether the force of each load has columns of its own beside the total."""
+        return len(self._tables()) > 1 or len(self.tables) > 0
+
+    def _tables(self) -> list[str]:
+        first = [name for name, yes in zip(self.names, self.tabulated, strict=True) if yes]
+        return first + [name for name, _, yes in self.second if yes]
+
+    def mean_force(self, realisation: int) -> Array:
+        """Return the mean force (6,) of second order."""
+        return np.sum([np.zeros(6), *[force.mean(realisation) for _, force, _ in self.second]], axis=0)
 
     def response(self, system: LinearSystem) -> ComplexArray:
         """Return the stationary motion (n, 6) per metre of amplitude: Z(w_e)^-1 F.
@@ -89,6 +111,11 @@ def meet(system: LinearSystem, sea: Sea, *, large: bool) -> Seaway:
         raise InputError(f"sea: a Sea (e.g. from irregular or regular) expected, {type(sea).__name__} found.")
     loads = [(name, term.wave) for name, term in zip(system.names, system.terms, strict=True) if term.wave is not None]
     force = [wave(sea, system.heading) for _, wave in loads]
+    second = [
+        (name, term.table(sea, system.heading, system.speed), not large or term.encounter is None)
+        for name, term in zip(system.names, system.terms, strict=True)
+        if term.table is not None
+    ]
     return Seaway(
         frequency=sea.omega - sea.wavenumber * system.speed * np.cos(sea.direction - system.heading),
         amplitude=np.ascontiguousarray(np.atleast_2d(sea.complex_amplitude)),
@@ -97,6 +124,7 @@ def meet(system: LinearSystem, sea: Sea, *, large: bool) -> Seaway:
         batched=sea.amplitude.ndim == 2,
         tabulated=tuple(not large or system.terms[system.names.index(name)].encounter is None for name, _ in loads),
         sea=sea,
+        second=tuple(second),
     )
 
 
