@@ -16,11 +16,12 @@ ABOUT = """The Marine Systems Simulator holds the wave forces of a multipurpose 
 headings) at 0, 10, 12, 15 and 17 knots. All five drive one vessel of that ship's particulars (navalvessel.m, after Blanke and
 Christensen, 1993: 51.5 x 8.6 x 2.3 m, 357 m3, with its inertia, added mass in surge, sway, roll and yaw, GM and resistance;
 heave and pitch are held by the long-wave limit of its own heave force, damping and added mass there are taken). In a bow sea
-of Hs 1.5 m, Tp 7 s it speeds up from 1 to 7.8 m/s, then turns by 60 degrees. The force has to be what the data of the present
+of Hs 1.5 m, Tp 7 s it speeds up from 1 to 7.8 m/s, then turns by 60 degrees. The force has to be what the data of the mean
 speed and heading say, and must not jump on the way: what it changes in one step halves with the step, and its fastest change
 is that of a Gaussian process of its spectrum. A body too heavy to be moved is drawn along at constant speeds for the forces,
-and for the waves that it meets: their frequency is omega - k U cos(b). The table over speed is linear between steps of a
-quarter of the vessel's nominal speed: at the nominal speed the force is exact, in between the line says what that costs."""
+and for the waves that it meets: their frequency is omega - k U cos(b). The force goes by the mean speed of the
+last half minute, and its table over speed is linear between the speeds of the data and a few in between: there the force is
+exact, in between the line says what that costs."""
 NEEDS = ["data/mss_navalvessel/forceRAO_navalvessel.mat"]
 HEIGHT = 6.4
 
@@ -164,14 +165,24 @@ def _defined(data: dict[str, Any], every: int) -> tuple[np.ndarray, np.ndarray]:
     """Return the force of a run and what place, heading and speed define, each (n, 6)."""
     run, sea, load = data["runs"][0.05], data["sea"], og.WaveExcitation(data["sets"])
     rows = np.arange(0, run.time.size, every)
+    mean = _averaged(run.nu.values[:, 0], float(run.time[1] - run.time[0]))
     k, b = sea.wavenumber, sea.direction
     wanted = []
     for n in rows:
-        x, y, psi, u = (float(v) for v in (*run.eta.values[n, [0, 1, 5]], run.nu.values[n, 0]))
+        x, y, psi, u = (float(v) for v in (*run.eta.values[n, [0, 1, 5]], mean[n]))
         X = load.force(sea.omega, b - psi, u)
         phase = sea.omega * float(run.time[n]) - k * (x * np.cos(b) + y * np.sin(b)) + sea.phase
         wanted.append((np.exp(1j * phase) * sea.amplitude @ X).real)
     return level_forces(run)[rows], np.array(wanted)
+
+
+def _averaged(speed: np.ndarray, dt: float) -> np.ndarray:
+    """Return the mean speed that the force goes by: u_m' = (u - u_m) / 30 s from the first speed on, trapezoidal rule."""
+    mean, a = np.empty_like(speed), 0.5 * dt / 30.0
+    mean[0] = speed[0]
+    for n in range(1, len(speed)):
+        mean[n] = ((1.0 - a) * mean[n - 1] + a * (speed[n - 1] + speed[n])) / (1.0 + a)
+    return mean
 
 
 def _fastest(data: dict[str, Any]) -> np.ndarray:

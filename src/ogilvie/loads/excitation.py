@@ -36,8 +36,8 @@ class WaveExcitation:
         Hydrodynamic data set with ``excitation_force``; or several of one vessel at different speeds.
     position : {"instantaneous", "slow", "mean"}
         Where the waves are met in large motions: where the vessel is, at the heading it has; the same with its motion in the
-        waves filtered to about a fifth, which is right beside a load of slow drift, that has this part in it; or in the frame that advances steadily, as
-        small motions assume.
+        waves filtered to about a fifth, which is right beside a load of slow drift, that has this part in it; or in the frame
+        that advances steadily, as small motions assume.
     speeds : (float, float), optional
         Mean speeds through the water, m/s, that a vessel in large motions may have. By default those of the data sets; with one
         at zero speed up to half as fast again as the vessel's own, and 2 m/s either way for one that lies still.

@@ -8,7 +8,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from ogilvie.errors import InputError
-from ogilvie.loads.interpolation import Headings, reachable
+from ogilvie.loads.interpolation import Headings, vessel_headings
 from ogilvie.loads.kernel import ETA, ROTATION, TIME, Kernel, load_kernel
 from ogilvie.loads.quadratic import QuadraticForm
 from ogilvie.waves.field import Sea
@@ -63,7 +63,7 @@ def second_order_kernel(
     Tabulated every 3 degrees of psi, linear between.
     """
     direction = sea.direction[inside]
-    limits = reachable(tabulated, direction, heading)
+    limits = vessel_headings(tabulated, direction, heading)
     if limits is not None and limits[1] - limits[0] < _TURNS_LEAST:
         raise InputError(
             f"{who}: large motions need data for the headings that the vessel takes; for this sea they hold from "

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from ogilvie.errors import InputError
 from ogilvie.loads.base import Surroundings, Terms
 from ogilvie.loads.coverage import covered
-from ogilvie.loads.interpolation import heading_weights, interpolated, reachable
+from ogilvie.loads.interpolation import heading_weights, interpolated, vessel_headings
 from ogilvie.loads.kernel import ETA, NU_R, ROTATION, Kernel, load_kernel
 from ogilvie.loads.newman import DriftTable, drift_table
 from ogilvie.loads.speed_table import HeadingTable
@@ -126,7 +126,7 @@ class WaveDriftDamping:
         B = np.zeros((6, 6))
         B[:2, :2] = self.matrix(surroundings.heading)
         small = Terms(damping=B, constant=-B[:, 0] * surroundings.speed)
-        limits = reachable(self._table.headings, self.sea.direction, surroundings.heading)
+        limits = vessel_headings(self._table.headings, self.sea.direction, surroundings.heading)
         if limits is None:
             grid = np.arange(0.0, 2 * np.pi - 0.5 * _STEP, _STEP)
         else:
