@@ -17,8 +17,9 @@ lines of the S175 (added mass of zero frequency from the panel method, lift and 
 m2) changes its course by 20 degrees at 10 and 4 m/s: the reference heading is 1 - (1 + wt + (wt)^2/2) exp(-wt) times the step,
 the rudder keeps its 35 degrees and 65 degrees in 28 seconds, and at 4 m/s it needs both. With the rudder held it turns in
 circles. No measurement is compared, and heel is not to be relied on: it is a small difference of large moments, and the theory
-of a uniform stream leaves the steady flow about the hull out of them. Speed, drift, rate of turn and heel have to be a solution of the steady equations, which are
-written out here and solved on their own. A zig-zag (20/20) has to be the same at half the time step.
+of a uniform stream leaves the steady flow about the hull out of them. Speed, drift, rate of turn and heel have to be a
+solution of the steady equations, which are written out here and solved on their own. A zig-zag (20/20) has to be the same at
+half the time step.
 
 An offshore vessel of 80 m keeps its position against waves (Hs 2.5 m, Tp 8.5 s), a drift force that follows their envelope,
 gusty wind of 12 m/s and a current of 0.6 m/s by three thrusters, with and without the wave filter. The filter has to take the
@@ -218,7 +219,7 @@ def thrusts(result: Any, fleet: Any) -> np.ndarray:
     for i, unit in enumerate(fleet):
         label = f"positioning_thrust of {unit.name}"
         for c, words in enumerate((" forward", " to port") if unit.azimuth else ("",)):
-            out[:, i, c] = result[label + words].values
+            out[:, i, c] = result[(label + words).replace(" ", "_")].values
     return out
 
 
@@ -239,7 +240,7 @@ def _spectral_gain(result: Any, dof: int) -> tuple[np.ndarray, np.ndarray, np.nd
     from scipy.signal import csd, welch
 
     late = result.sel(time=slice(DP_FROM, None))
-    y, x = late.eta.values[:, dof], late[f"positioning_estimated {POSITION[dof]}"].values
+    y, x = late.eta.values[:, dof], late[f"positioning_estimated_{POSITION[dof]}".replace(" ", "_")].values
     options = {"fs": 10.0, "nperseg": 2048, "detrend": "linear"}
     f, S_y = welch(y, **options)
     return 2 * np.pi * f, np.abs(csd(y, x, **options)[1]) / S_y, S_y / (2 * np.pi)
