@@ -16,7 +16,7 @@ import pytest
 from typer.testing import CliRunner
 
 import ogilvie as og
-from ogilvie.app import build, build_run
+from ogilvie.app import build, build_memory, build_run
 from ogilvie.app.case import parse_case
 from ogilvie.app.cli import app
 
@@ -128,7 +128,7 @@ def first_realisation(path) -> og.Stepper:
     body = build.make_body(case, None)
     hydro = build.make_hydro(case, None, body)
     sea = build_run.make_sea(case, build_run.make_spectrum(case), hydro)
-    vessel = build_run.make_vessel(case, body, hydro, *build.make_memory(case, hydro, body))
+    vessel = build_run.make_vessel(case, body, hydro, *build_memory.make_memory(case, hydro, body))
     return og.Stepper(vessel, sea.isel(0), dt=case.simulation.dt)
 
 

@@ -186,6 +186,7 @@ def identify_command(source: Path, *, output: Path, r2: float, duration: float |
 def simulate_command(path: Path, *, coefficients: Path | None, memory: Path | None, output: Path) -> None:
     """Simulate a case, from saved coefficients and fluid memory where they are given."""
     from ogilvie.app import build, build_run
+    from ogilvie.app.build_memory import make_memory
     from ogilvie.app.case import read_case
     from ogilvie.app.summary import print_motions
 
@@ -194,13 +195,16 @@ def simulate_command(path: Path, *, coefficients: Path | None, memory: Path | No
         hull = build.make_hull(case)
         body = build.make_body(case, hull) if case.body is not None else None
         with step("coefficients"):
-            hydro = build.make_hydro(case, hull, body) if coefficients is None else read_coefficients(coefficients)
+            if coefficients is None:
+                hydro = build.make_hydro(case, hull, body)
+            else:
+                hydro = build.fitted_to_speed(case, read_coefficients(coefficients), hull)
         body = body or build.make_body(case, hull, hydro)
         with step("fluid memory"):
-            K, ssm = build.make_memory(case, hydro, body) if memory is None else read_memory(memory)
+            K, ssm = make_memory(case, hydro, body) if memory is None else read_memory(memory)
         with step("simulation"):
             sea = build_run.make_sea(case, build_run.make_spectrum(case), hydro)
-            run = build_run.simulate_case(case, build_run.make_vessel(case, body, hydro, K, ssm), sea)
+            run = build_run.simulate_case(case, build_run.make_vessel(case, body, hydro, K, ssm, hull=hull), sea)
         write_result(run, output)
     _tell(notes)
     print_motions(build_run.statistics(case, run))

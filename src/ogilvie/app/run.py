@@ -11,7 +11,9 @@ from pathlib import Path
 from typing import Any
 
 from ogilvie.app import build, build_run
+from ogilvie.app.build_memory import make_memory
 from ogilvie.app.case import Case
+from ogilvie.app.compare import frequency_domain
 from ogilvie.app.console import step
 from ogilvie.app.drawing import Painter
 from ogilvie.app.files import collected_warnings, write_bytes, write_memory, write_result, write_text
@@ -116,7 +118,7 @@ def _prepared(case: Case, place: Workspace, painter: Painter, progress: bool | N
         checks = check(hydro)
         tell(f"{len(checks.findings)} findings" if checks.findings else "no findings")
     with step("fluid memory") as tell:
-        K, ssm = build.make_memory(case, hydro, body)
+        K, ssm = make_memory(case, hydro, body)
         place.keep(write_memory(place.folder / "memory.npz", K, ssm))
         painter.draw(memory_figures(hydro, K, ssm))
         tell(f"convolution over {K.duration:.4g} s" if ssm is None else f"{ssm.order} states, {ssm.method}")
@@ -138,8 +140,8 @@ def _simulated(case: Case, f: Findings, place: Workspace, painter: Painter, prog
     with step("simulation") as tell:
         spectrum = build_run.make_spectrum(case)
         sea = build_run.make_sea(case, spectrum, f.hydro)
-        vessel = build_run.make_vessel(case, f.body, f.hydro, f.K, f.ssm)
-        compared = build_run.frequency_domain(case, vessel, f.hydro, f.body, spectrum)
+        vessel = build_run.make_vessel(case, f.body, f.hydro, f.K, f.ssm, hull=f.hull)
+        compared = frequency_domain(case, vessel, f.hydro, f.body, spectrum)
         painter.draw(wave_figures(spectrum, sea, compared.get("response")))
         run = build_run.simulate_case(case, vessel, sea, progress=progress)
         place.keep(write_result(run, place.folder / "result.nc"))
