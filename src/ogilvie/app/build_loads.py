@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from ogilvie.body import RigidBody
+    from ogilvie.loads.current import Current
     from ogilvie.loads.hull_lift import HullLift
     from ogilvie.loads.resistance import SurgeResistance
     from ogilvie.loads.wind_coefficients import WindCoefficients
@@ -53,7 +54,7 @@ def plain_loads(made: Made) -> list[Any]:
     if case.wind is not None:
         loads.append(_wind_force(made))
     if case.current is not None:
-        loads.append(_current(made))
+        loads.append(make_current(case, made.hull))
     return loads
 
 
@@ -224,12 +225,13 @@ def _wind_coefficients(made: Made) -> "WindCoefficients":
     return WindCoefficients(columns[0] * deg, *columns[1:], **given)
 
 
-def _current(made: Made) -> Any:
+def make_current(case: Case, hull: "PanelMesh | None") -> "Current":
+    """Return the current of a case; a profile is averaged over the draught of the hull."""
     from ogilvie.loads.current import Current
 
-    c: Any = made.case.current
+    c: Any = case.current
     direction = radians(c.direction_deg)
     if c.profile is None:
         return Current(c.speed if c.speed is not None else c.speed_knots * knot, direction)
     z, speed = np.array(c.profile).T
-    return Current(speed, direction, z=z, draught=c.draught if c.draught is not None else made.wetted.draught)
+    return Current(speed, direction, z=z, draught=c.draught if c.draught is not None else hull.draught)  # type: ignore[union-attr]

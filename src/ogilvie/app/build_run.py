@@ -190,11 +190,14 @@ def skipped(case: Case) -> float:
 
 
 def statistics(case: Case, run: "xr.Dataset") -> "xr.Dataset | None":
-    """Return the statistics of the motions, or None where a run was cut too short for them."""
+    """Return the statistics of the motions, those of large ones about the mean course; None where a run was cut too short."""
+    from ogilvie.post.course import about_course
     from ogilvie.post.stats import summary
 
     skip = skipped(case)
     if run.sizes["time"] < 16 or float(run.time[-1]) <= skip:
         warnings.warn("no statistics: the run ended before enough of it was done", OgilvieWarning)
         return None
-    return summary(run, skip=skip)
+    found = summary(about_course(run, skip=skip), skip=skip)
+    about = "the mean course (surge along it, sway to port of it)" if run.attrs.get("motions") == "large" else ""
+    return found.assign_attrs(about=about)

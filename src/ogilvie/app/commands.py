@@ -207,7 +207,7 @@ def simulate_command(path: Path, *, coefficients: Path | None, memory: Path | No
             run = build_run.simulate_case(case, build_run.make_vessel(case, body, hydro, K, ssm, hull=hull), sea)
         write_result(run, output)
     _tell(notes)
-    print_motions(build_run.statistics(case, run))
+    print_motions(build_run.statistics(case, run), run=run, skip=build_run.skipped(case))
     say(f"written to {output}")
     _stop_if_incomplete(run, f"What had been simulated is in {output}.")
 
@@ -215,6 +215,7 @@ def simulate_command(path: Path, *, coefficients: Path | None, memory: Path | No
 def plot_command(source: Path, *, output: Path, format: str, window: tuple[float, float] | None) -> None:
     """Draw what a file holds."""
     from ogilvie.post import plot
+    from ogilvie.post.course import about_course
 
     if format not in ("png", "svg", "pdf"):
         raise InputError(f"--format: one of png, svg, pdf expected, {format!r} found.")
@@ -233,6 +234,9 @@ def plot_command(source: Path, *, output: Path, format: str, window: tuple[float
             made["retardation"] = plot.retardation(*read_memory(source))
         elif kind == "result":
             run = read_result(source)
+            if run.attrs.get("motions") == "large":
+                made["track"], made["controls"] = plot.track(run), plot.controls(run)
+                run = about_course(run)
             made["motions"] = plot.motions(run, window=window)
             if run.sizes["time"] >= 600:
                 made["response_spectra"] = plot.response_spectra(run)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ogilvie.app import build, build_run
 from ogilvie.app.build_memory import make_memory
@@ -17,9 +17,23 @@ from ogilvie.app.compare import frequency_domain
 from ogilvie.app.console import step
 from ogilvie.app.drawing import Painter
 from ogilvie.app.files import collected_warnings, write_bytes, write_memory, write_result, write_text
+from ogilvie.app.weather import weather
 from ogilvie.errors import ConvergenceError
 from ogilvie.post.report import Findings, report
-from ogilvie.post.report_figures import hull_figures, memory_figures, overview_figure, run_figures, wave_figures
+from ogilvie.post.report_figures import (
+    Job,
+    hull_figures,
+    memory_figures,
+    mooring_figure,
+    overview_figure,
+    run_figures,
+    wave_figures,
+)
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from ogilvie.sim.vessel import Vessel
 
 
 @dataclass(eq=False)
@@ -147,9 +161,22 @@ def _simulated(case: Case, f: Findings, place: Workspace, painter: Painter, prog
         place.keep(write_result(run, place.folder / "result.nc"))
         tell(f"{run.sizes.get('realisation', 1)} x {float(run.time[-1]):.4g} s")
     skip = build_run.skipped(case)
-    painter.draw(run_figures(run, spectrum=spectrum, expected=compared.get("expected_spectra"), skip=skip))
+    painter.draw(run_figures(run, spectrum=spectrum, expected=compared.get("expected_spectra"), skip=skip, hull=f.hull))
+    painter.draw(_moored(vessel, run, skip))
     statistics = build_run.statistics(case, run)
-    return replace(f, spectrum=spectrum, sea=sea, run=run, skip=skip, statistics=statistics, **compared)
+    said: dict[str, Any] = {"weather": weather(case, f.hull), "loads": vessel.names}
+    return replace(f, spectrum=spectrum, sea=sea, run=run, skip=skip, statistics=statistics, **said, **compared)
+
+
+def _moored(vessel: "Vessel", run: "xr.Dataset", skip: float) -> dict[str, Job]:
+    """The picture of catenary lines at the mean pose."""
+    from ogilvie.loads.mooring_lines import CatenaryMooring
+
+    lines = next((load for load in vessel.loads if isinstance(load, CatenaryMooring)), None)
+    if lines is None or float(run.time[-1]) <= skip:
+        return {}
+    eta = run.eta.sel(time=slice(skip, None)).values
+    return mooring_figure(lines, eta.reshape(-1, 6).mean(axis=0))
 
 
 def _shown(case: Case, f: Findings, place: Workspace, painter: Painter, began: float) -> Findings:
