@@ -68,7 +68,7 @@ def restoring(made: Made) -> Any:
     if r.kind == "hull":
         from ogilvie.loads.hull_restoring import HullRestoring
 
-        spans = {"roll": r.max_roll_deg * deg, "pitch": r.max_pitch_deg * deg}
+        spans: Any = {"roll": r.max_roll_deg * deg, "pitch": r.max_pitch_deg * deg}
         return HullRestoring(make_whole_hull(made.case), made.body, **spans, rho=made.case.water.rho, g=g)
     from ogilvie.loads.gz import GZRestoring
 
@@ -100,7 +100,7 @@ def _damping(made: Made) -> list[Any]:
         loads.append(RollDamping(quadratic=roll, cubic=0.0 if d.cubic is None else d.cubic.roll))
     if d.cross_flow is not None:
         c = d.cross_flow
-        drag = {"cd": c.cd, "cd_vertical": c.cd_vertical, "z": c.z, "strips": c.strips}
+        drag: Any = {"cd": c.cd, "cd_vertical": c.cd_vertical, "z": c.z, "strips": c.strips}
         loads.append(CrossFlowDrag.from_hull(made.wetted, **drag, rho=made.case.water.rho))
     return loads + ([_ikeda(made)] if d.ikeda is not None else [])
 

@@ -24,8 +24,8 @@ Array = NDArray[np.float64]
 _RESTORED = ("heave", "roll", "pitch")
 #: rad/s; waves met more slowly carry a free vessel with them, which is no matter of linear theory.
 _CARRIED = 0.05
-_BEYOND = "at_speed: the frequency of encounter exceeds"
-_ROUNDS = 8  # of the iteration for damping of roll
+_BEYOND = "(at_speed: the frequency of encounter|rao: the encounter frequency) exceeds"
+_ROUNDS = 6  # of the iteration for damping of roll
 _RADIATION = ("added_mass", "radiation_damping")
 _FORCES = ("excitation_force", "Froude_Krylov_force", "diffraction_force")
 
@@ -45,7 +45,7 @@ def frequency_domain(case: Case, vessel: "Vessel", hydro: "xr.Dataset", body: An
     from ogilvie.sim.system import assemble, bind_loads
 
     system, extra_damping = assemble(vessel), np.zeros((6, 6))
-    sailing = continued(under_way_quietly(finer(hydro), case.speed))
+    sailing = continued(under_way_quietly(finer(hydro, count=240 if case.large else 400), case.speed))
     last = float(hydro.omega[-1])
     response = _response(case, system, sailing, body, extra_damping, last)
     out: dict[str, Any] = {"response": response}
@@ -56,11 +56,12 @@ def frequency_domain(case: Case, vessel: "Vessel", hydro: "xr.Dataset", body: An
     roll = _roll_beyond_linear(bind_loads(vessel)) if case.large and "roll" in response.dof.values else (0.0, 0.0)
     try:
         out["expected"] = _statistics(response, spectrum, options)
+        s = float(np.sqrt(out["expected"].m2.sel(dof="roll"))) if any(roll) else 0.0
         for _ in range(_ROUNDS if any(roll) else 0):
-            s = float(np.sqrt(out["expected"].m2.sel(dof="roll")))
             extra_damping[3, 3] = np.sqrt(8.0 / np.pi) * roll[0] * s + 3.0 * roll[1] * s**2
             out["response"] = response = _response(case, system, sailing, body, extra_damping, last)
             out["expected"] = _statistics(response, spectrum, options)
+            s = float(np.sqrt(s * np.sqrt(out["expected"].m2.sel(dof="roll"))))  # halfway, since more damping is less motion
         if case.speed == 0.0:
             out["expected_spectra"] = response_spectrum(response, spectrum, **options)
     except InputError as error:
@@ -85,6 +86,7 @@ def _response(
     D = system.damping + extra_damping
     stiffness = (system.stiffness - case.speed * D @ TURNING)[of_data] - hydro.hydrostatic_stiffness.values
     with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message=_BEYOND, category=OgilvieWarning)
         if case.large:  # damping that is not linear is found by iteration
             warnings.filterwarnings("ignore", message="rao: the resonance", category=OgilvieWarning)
         response = rao(hydro, body, stiffness=stiffness, damping=D[of_data]).sel(omega=slice(None, last))

@@ -1,6 +1,7 @@
 """What the sections on control must satisfy beyond single keys, and which motions a case has."""
 
 from collections.abc import Iterator
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -57,7 +58,7 @@ def _period(section: Any, name: str, s: dict[str, Any]) -> Iterator[str]:
 
 def _schedule(rows: Any, name: str) -> Iterator[str]:
     times = [row[0] for row in rows]
-    if any(b <= a for a, b in zip(times, times[1:], strict=False)):
+    if any(b <= a for a, b in pairwise(times)):
         yield f"{name}.schedule: rows that begin with increasing times (s) expected, {times} found."
 
 

@@ -1,6 +1,7 @@
 """What the sections on forces and control must satisfy beyond single keys."""
 
 from collections.abc import Iterator
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -154,7 +155,7 @@ def _current(s: dict[str, Any], folder: Path) -> Iterator[str]:
     z, v = zip(*c.profile, strict=True)
     if max(z) > 0 or min(v) < 0:
         yield "current.profile: rows [z, speed] with z <= 0 (below the water) and speed >= 0 expected, others found."
-    if any(b >= a for a, b in zip(z, z[1:], strict=False)) and any(b <= a for a, b in zip(z, z[1:], strict=False)):
+    if any(b >= a for a, b in pairwise(z)) and any(b <= a for a, b in pairwise(z)):
         yield "current.profile: z in falling (or rising) order expected, others found."
 
 
@@ -168,7 +169,7 @@ def _mooring(s: dict[str, Any], folder: Path) -> Iterator[str]:
         yield f"mooring: exactly one of [[mooring.lines]], [mooring.table] and [mooring.moordyn] expected, {found} found."
     loads = s["loads"]
     if loads is not None and (loads.mooring_period.given or loads.mooring_stiffness.given):
-        yield "mooring: the springs of [loads] (mooring_period, mooring_stiffness) hold the vessel already; one of the two expected."
+        yield "mooring: the springs of [loads] (mooring_period, mooring_stiffness) hold the vessel; keep one of the two."
     for key in sorted(m.model_fields_set & {"length", "weight", "stiffness", "friction", "grounded", "linearised"}):
         if m.lines is None:
             yield f"mooring.{key}: only with lines. Remove it."
@@ -178,7 +179,8 @@ def _mooring(s: dict[str, Any], folder: Path) -> Iterator[str]:
     if m.moordyn is not None:
         yield from missing_file("mooring.moordyn.file", m.moordyn.file, folder)
         if s["simulation"] is not None and s["simulation"].realisations > 1:
-            yield f"simulation.realisations: {s['simulation'].realisations}: 1 expected with mooring.moordyn, whose lines have one state."
+            n = s["simulation"].realisations
+            yield f"simulation.realisations: {n}: 1 expected with mooring.moordyn, whose lines have one state."
 
 
 def _lines(s: dict[str, Any], m: Any) -> Iterator[str]:
@@ -186,11 +188,12 @@ def _lines(s: dict[str, Any], m: Any) -> Iterator[str]:
         for key in ("length", "weight", "stiffness"):
             if getattr(line, key) is None and getattr(m, key) is None:
                 yield f"mooring.lines[{i}].{key}: expected here or in [mooring], not found."
-        if line.anchor[2] >= line.fairlead[2]:
-            yield f"mooring.lines[{i}].anchor: z = {line.anchor[2]:g} m: below the fairlead, z = {line.fairlead[2]:g} m, expected."
+        name, z = f"mooring.lines[{i}].anchor: z = {line.anchor[2]:g} m", line.anchor[2]
+        if z >= line.fairlead[2]:
+            yield f"{name}: below the fairlead, z = {line.fairlead[2]:g} m, expected."
         water = s["water"]
-        if water is not None and line.anchor[2] < -water.depth * (1 + 1e-9):
-            yield f"mooring.lines[{i}].anchor: z = {line.anchor[2]:g} m: not below the bottom, water.depth {water.depth:g} m, expected."
+        if water is not None and z < -water.depth * (1 + 1e-9):
+            yield f"{name}: not below the bottom expected, water.depth is {water.depth:g} m."
 
 
 def _mooring_tables(table: Any, folder: Path) -> Iterator[str]:

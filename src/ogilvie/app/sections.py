@@ -36,7 +36,7 @@ class Vessel(Section):
 
 
 class Hull(Section):
-    """A mesh file, or a shape made here with its parameters (m); depth is that from keel to deck, for restoring at large heel."""
+    """A mesh file, or a shape made here with its parameters (m); depth, from keel to deck, is for restoring at large heel."""
 
     file: Text | None = None
     shape: Shape | None = None

@@ -28,10 +28,10 @@ def weather(case: Case, hull: "PanelMesh | None") -> tuple[tuple[str, str], ...]
             rows.append(("gusts", f"{gusts.name}, standard deviation {number(gusts.deviation, 3)} m/s"))
     if case.current is not None:
         x, y, _ = make_current(case, hull).velocity
-        speed = hypot(x, y)
+        flow = hypot(x, y)
         mean = ", mean over the draught" if case.current.profile is not None else ""
         rows += [
-            ("current", f"{number(speed, 3)} m/s ({number(speed / knot, 3)} kn){mean}"),
+            ("current", f"{number(flow, 3)} m/s ({number(flow / knot, 3)} kn){mean}"),
             ("current flows towards", f"{number(_turn(case.current.direction_deg), 4)}\u00b0"),
         ]
     if rows and isfinite(case.water.depth):

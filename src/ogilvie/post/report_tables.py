@@ -208,7 +208,7 @@ def statistics_table(statistics: "xr.Dataset", expected: "xr.Dataset | None") ->
     about = str(statistics.attrs.get("about", ""))
     where = f" about {about}" if about else ""
     caption = (
-        f"Motions of O{where}: {statistics.attrs['realisations']} x {number(statistics.attrs['duration'])} s. Significant and highest "
-        "third are double amplitudes; the expected maximum is that of one realisation, above the mean."
+        f"Motions of O{where}: {statistics.attrs['realisations']} x {number(statistics.attrs['duration'])} s. Significant and "
+        "highest third are double amplitudes; the expected maximum is that of one realisation, above the mean."
     )
     return Table(rows, head, caption, left=frozenset({0, 1}))
