@@ -5,17 +5,62 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ogilvie.app.build_loads import Made, after_end, hull_lift, resistance
+from ogilvie.app.build_loads import (
+    Made,
+    after_end,
+    hull_lift,
+    make_current,
+    make_wind,
+    resistance,
+    righting_levers,
+    wind_coefficients,
+)
 from ogilvie.app.build_memory import slow_added_mass
+from ogilvie.app.case import Case
 from ogilvie.app.tables import read_columns
 from ogilvie.errors import InputError
 from ogilvie.units import deg, knot
 
 if TYPE_CHECKING:
     from ogilvie.loads.control.observer import WaveFilter
+    from ogilvie.mesh.panels import PanelMesh
 
 #: The notch of a wave filter has to lie so many times above the bandwidth of the control.
 _APART = 2.0
+
+
+def try_parts(case: Case, hull: "PanelMesh | None") -> None:
+    """Make once what needs no coefficients, so that a mistake in it is told before the long work.
+
+    Raises
+    ------
+    InputError
+        What a load finds wrong: tables, thrusters that cannot hold the vessel, lines that cannot be.
+    """
+    from ogilvie.loads.control.thruster import check_capability
+
+    made = Made(case, None, None, hull)  # type: ignore[arg-type]
+    if case.restoring is not None and case.restoring.file is not None:
+        righting_levers(case)
+    if case.wind is not None:
+        wind_coefficients(made)
+        make_wind(case)
+    if case.current is not None:
+        make_current(case, hull)
+    if case.resistance is not None:
+        resistance(made)
+    if case.hull_lift is not None:
+        hull_lift(made)
+    if case.mooring is not None:
+        mooring(made)
+    for name in ("autopilot", "positioning"):
+        section = getattr(case, name)
+        if section is not None:
+            _wave_filter(made, section, name)
+    if case.autopilot is not None and case.autopilot.rudder is not None:
+        _rudder(made)
+    if case.positioning is not None and case.positioning.thrusters is not None:
+        check_capability([_thruster(t, i) for i, t in enumerate(case.positioning.thrusters)], None)
 
 
 def control_loads(made: Made) -> list[Any]:

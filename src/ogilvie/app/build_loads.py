@@ -5,6 +5,7 @@ from math import ceil, radians
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ogilvie.app.build import make_whole_hull
 from ogilvie.app.build_memory import at_rest
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
     from ogilvie.loads.wind_coefficients import WindCoefficients
     from ogilvie.mesh.panels import PanelMesh
     from ogilvie.waves.wind import Wind
+
+Array = NDArray[np.float64]
 
 _GUST_STEP = 0.5  # s
 
@@ -73,13 +76,20 @@ def restoring(made: Made) -> Any:
     from ogilvie.loads.gz import GZRestoring
 
     if r.file is not None:
-        angle, lever = read_columns(made.case.path(r.file), columns=(2,), what="heel in deg, lever in m")
-        return GZRestoring(made.hydro, angle * deg, lever, displacement=made.body.mass, g=g)
+        angle, lever = righting_levers(made.case)
+        return GZRestoring(made.hydro, angle, lever, displacement=made.body.mass, g=g)
     from ogilvie.mesh.gz import gz_curve
 
     angles = np.linspace(0.0, r.max_roll_deg, ceil(r.max_roll_deg / 2.5) + 1) * deg
     curve = gz_curve(make_whole_hull(made.case), made.body, angles, rho=made.case.water.rho)
     return GZRestoring.from_curve(made.hydro, curve, g=g)
+
+
+def righting_levers(case: Case) -> tuple[Array, Array]:
+    """Return angles of heel (rad) and righting levers (m) of the file of the case."""
+    r: Any = case.restoring
+    angle, lever = read_columns(case.path(r.file), columns=(2,), what="heel in deg, lever in m")
+    return angle * deg, lever
 
 
 def _damping(made: Made) -> list[Any]:
@@ -203,10 +213,11 @@ def _wind_force(made: Made) -> Any:
     from ogilvie.loads.wind import WindForce
 
     w: Any = made.case.wind
-    return WindForce(_wind_coefficients(made), make_wind(made.case), height=w.height)
+    return WindForce(wind_coefficients(made), make_wind(made.case), height=w.height)
 
 
-def _wind_coefficients(made: Made) -> "WindCoefficients":
+def wind_coefficients(made: Made) -> "WindCoefficients":
+    """Return the wind coefficients of a case: by type of ship, by regression, or from a table."""
     from ogilvie.loads.wind_blendermann import blendermann_wind
     from ogilvie.loads.wind_coefficients import WindCoefficients
     from ogilvie.loads.wind_isherwood import isherwood_wind

@@ -128,9 +128,12 @@ def check_command(source: Path, *, draught: float | None) -> bool:
         if kind == "mesh":
             good = _check_mesh(source, draught)
         elif kind == "case":
+            from ogilvie.app.build import make_hull
+            from ogilvie.app.build_control import try_parts
             from ogilvie.app.case import read_case
 
-            read_case(source)
+            case = read_case(source)
+            try_parts(case, make_hull(case))
             say(f"{source.name}: no mistakes.")
             good = True
         elif kind == "coefficients":
@@ -186,6 +189,7 @@ def identify_command(source: Path, *, output: Path, r2: float, duration: float |
 def simulate_command(path: Path, *, coefficients: Path | None, memory: Path | None, output: Path) -> None:
     """Simulate a case, from saved coefficients and fluid memory where they are given."""
     from ogilvie.app import build, build_run
+    from ogilvie.app.build_control import try_parts
     from ogilvie.app.build_memory import make_memory
     from ogilvie.app.case import read_case
     from ogilvie.app.summary import print_motions
@@ -193,6 +197,7 @@ def simulate_command(path: Path, *, coefficients: Path | None, memory: Path | No
     case, notes = read_case(path), list[str]()
     with collected_warnings(notes):
         hull = build.make_hull(case)
+        try_parts(case, hull)
         body = build.make_body(case, hull) if case.body is not None else None
         with step("coefficients"):
             if coefficients is None:

@@ -5,12 +5,15 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+from ogilvie.app.crosschecks_loads import hullless
+
 #: Sections that are for large motions alone.
 STEERING = ("resistance", "wind", "current", "autopilot", "speed_keeping", "positioning")
 
 
 def control_checks(s: dict[str, Any], present: set[str], folder: Path) -> Iterator[str]:
     """Yield a sentence for every contradiction in the sections on control."""
+    s = {**s, "hullless": hullless(s, present)}
     for check in (_autopilot, _speed_keeping, _positioning, _motions):
         yield from check(s)
 
@@ -80,7 +83,7 @@ def _autopilot(s: dict[str, Any]) -> Iterator[str]:
         yield "autopilot: heading_deg or schedule expected, both found."
     if a.schedule is not None:
         yield from _schedule(a.schedule, "autopilot")
-    if a.rudder is not None and s["hull"] is None:
+    if a.rudder is not None and s["hullless"]:
         for key in ("x", "z"):
             if getattr(a.rudder, key) is None:
                 yield f"autopilot.rudder.{key}: expected where there is no hull, not found."

@@ -13,17 +13,19 @@ DECKED = ("s175", "particulars")
 
 def load_checks(s: dict[str, Any], present: set[str], folder: Path) -> Iterator[str]:
     """Yield a sentence for every contradiction in the sections on forces."""
+    s = {**s, "hullless": hullless(s, present)}
     for check in (_restoring, _damping, _resistance, _lift, _wind, _current, _mooring):
         yield from check(s, folder)
 
 
-def _no_hull(s: dict[str, Any]) -> bool:
-    return s["hull"] is None or (s["hull"].file is None and s["hull"].shape is None)
+def hullless(s: dict[str, Any], present: set[str]) -> bool:
+    """Return whether a case has coefficients alone, so that what a hull would tell has to be given."""
+    return "hull" not in present and s["coefficients"] is not None and s["coefficients"].file is not None
 
 
 def _needs(s: dict[str, Any], section: str, keys: tuple[str, ...]) -> Iterator[str]:
     """What has to be given where there is no hull to take it from."""
-    if _no_hull(s):
+    if s["hullless"]:
         for key in keys:
             if getattr(s[section], key) is None:
                 yield f"{section}.{key}: expected where there is no hull, not found."
@@ -40,9 +42,9 @@ def _restoring(s: dict[str, Any], folder: Path) -> Iterator[str]:
         if r.kind == "hull":
             yield 'restoring.file: a curve of righting levers; only with kind "gz".'
         return
-    if _no_hull(s):
+    if s["hullless"]:
         yield f'restoring.kind: "{r.kind}": a [hull] up to its deck expected, none found.'
-    elif hull.shape is not None and hull.shape not in DECKED:
+    elif hull is not None and hull.shape is not None and hull.shape not in DECKED:
         yield (
             f'restoring.kind: "{r.kind}": a hull up to its deck expected; shape "{hull.shape}" ends at the water. '
             "Give a file that goes on above it."
@@ -59,14 +61,14 @@ def _damping(s: dict[str, Any], folder: Path) -> Iterator[str]:
     for dof in sorted(d.linear.given.keys() & ratios.keys()):
         yield f"damping.linear.{dof}: also in loads.damping_ratio; one of the two expected."
     if d.cross_flow is not None:
-        if _no_hull(s):
+        if s["hullless"]:
             yield "damping.cross_flow: a [hull] for its sections expected, none found."
         dofs = {"sway", "yaw"} | ({"heave", "pitch"} if d.cross_flow.cd_vertical > 0 else set())
         for dof in sorted(dofs & d.quadratic.given.keys()):
             yield f"damping.quadratic.{dof}: cross_flow holds it already; one of the two expected."
     if d.ikeda is None:
         return
-    if _no_hull(s):
+    if s["hullless"]:
         yield "damping.ikeda: a [hull] for its sections expected, none found."
     for name, given in (
         ("loads.damping_ratio.roll", "roll" in ratios),
@@ -134,7 +136,7 @@ def _wind(s: dict[str, Any], folder: Path) -> Iterator[str]:
 
 
 def _unknown(s: dict[str, Any], coefficients: Any) -> list[str]:
-    if not _no_hull(s):
+    if not s["hullless"]:
         return []
     return [key for key in ("length", "beam") if key in type(coefficients).model_fields and getattr(coefficients, key) is None]
 
@@ -150,12 +152,12 @@ def _current(s: dict[str, Any], folder: Path) -> Iterator[str]:
         return
     if c.speed is not None or c.speed_knots is not None:
         yield "current: speed or profile expected, both found."
-    if _no_hull(s) and c.draught is None:
+    if s["hullless"] and c.draught is None:
         yield "current.draught: expected where there is no hull, not found."
     z, v = zip(*c.profile, strict=True)
     if max(z) > 0 or min(v) < 0:
         yield "current.profile: rows [z, speed] with z <= 0 (below the water) and speed >= 0 expected, others found."
-    if any(b >= a for a, b in pairwise(z)) and any(b <= a for a, b in pairwise(z)):
+    elif any(b >= a for a, b in pairwise(z)) and any(b <= a for a, b in pairwise(z)):
         yield "current.profile: z in falling (or rising) order expected, others found."
 
 
@@ -184,10 +186,13 @@ def _mooring(s: dict[str, Any], folder: Path) -> Iterator[str]:
 
 
 def _lines(s: dict[str, Any], m: Any) -> Iterator[str]:
+    for key in ("length", "weight", "stiffness"):
+        lacking = [i for i, line in enumerate(m.lines or ()) if getattr(line, key) is None and getattr(m, key) is None]
+        if lacking and len(lacking) == len(m.lines):
+            yield f"mooring.{key}: expected here for all lines, or in each of them, not found."
+        else:
+            yield from (f"mooring.lines[{i}].{key}: expected here or in [mooring], not found." for i in lacking)
     for i, line in enumerate(m.lines or ()):
-        for key in ("length", "weight", "stiffness"):
-            if getattr(line, key) is None and getattr(m, key) is None:
-                yield f"mooring.lines[{i}].{key}: expected here or in [mooring], not found."
         name, z = f"mooring.lines[{i}].anchor: z = {line.anchor[2]:g} m", line.anchor[2]
         if z >= line.fairlead[2]:
             yield f"{name}: below the fairlead, z = {line.fairlead[2]:g} m, expected."

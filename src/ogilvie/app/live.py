@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ogilvie.app import build, build_run
+from ogilvie.app.build_control import try_parts
 from ogilvie.app.build_memory import make_memory
 from ogilvie.app.case import Case, read_case
 from ogilvie.app.console import say, stderr, step, warn
@@ -114,6 +115,7 @@ def make_stepper(case: Case, duration: float) -> "Stepper":
     s, notes = case.simulation, list[str]()
     with collected_warnings(notes):
         hull = build.make_hull(case)
+        try_parts(case, hull)
         body = build.make_body(case, hull) if case.body is not None else None
         with step("coefficients"):
             hydro = build.make_hydro(case, hull, body)

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ogilvie.app import build, build_run
+from ogilvie.app.build_control import try_parts
 from ogilvie.app.build_memory import make_memory
 from ogilvie.app.case import Case
 from ogilvie.app.compare import frequency_domain
@@ -117,6 +118,7 @@ def _prepared(case: Case, place: Workspace, painter: Painter, progress: bool | N
 
     with step("hull") as tell:
         hull = build.make_hull(case)
+        try_parts(case, hull)
         if hull is not None:
             painter.draw(hull_figures(hull))
             tell(f"{hull.full().n_faces} panels, {hull.volume:.6g} m3")
