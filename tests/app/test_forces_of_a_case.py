@@ -76,7 +76,8 @@ def test_wind_coefficients_take_the_length_of_the_hull(made, hull):
 def test_wind_coefficients_from_a_file(made, tmp_path):
     rows = [f"{a}; {np.cos(a * deg):.6f}; {np.sin(a * deg) if 0 < a < 180 else 0:.6f}" for a in range(0, 181, 10)]
     (tmp_path / "wind.csv").write_text("angle; CX; CY\n" + "\n".join(rows))
-    text = '[wind]\nspeed = 10.0\ndirection_deg = 0.0\n[wind.table]\nfile = "wind.csv"\nfrontal_area = 300.0\nlateral_area = 900.0\n'
+    text = "[wind]\nspeed = 10.0\ndirection_deg = 0.0\n"
+    text += '[wind.table]\nfile = "wind.csv"\nfrontal_area = 300.0\nlateral_area = 900.0\n'
     found = build_loads.wind_coefficients(made(text, folder=tmp_path))
     np.testing.assert_allclose(found(90 * deg), [0.0, 1.0, 0.0, 0.0], atol=1e-5)
 
@@ -138,8 +139,9 @@ def test_ikeda_rolls_at_the_natural_period(made, hydro, body):
 
 def test_lines_share_what_mooring_gives(made):
     text = "[mooring]\nlength = 200.0\nweight = 500.0\nstiffness = 1e8\nlines = ["
-    text += "{ anchor = [180, 0, -60], fairlead = [38, 0, -3] }, { anchor = [-180, 0, -60], fairlead = [-38, 0, -3], weight = 700 }]\n"
-    lines = build_control.make_lines(made(text.replace("180,", "180.0,").replace("700", "700.0")))
+    text += "{ anchor = [180, 0, -60], fairlead = [38, 0, -3] },"
+    text += "{ anchor = [-180, 0, -60], fairlead = [-38, 0, -3], weight = 700 }]\n"
+    lines = build_control.make_lines(made(text))
     assert [line.weight for line in lines.lines] == [500.0, 700.0]
     assert {line.length for line in lines.lines} == {200.0}
 
@@ -154,7 +156,7 @@ def test_a_mooring_table_holds_back(made, tmp_path):
 
 
 def test_autopilot_and_rudder_in_degrees(made, hull):
-    text = "[vessel]\nspeed_knots = 10.0\nheading_deg = 5.0\n[autopilot]\nschedule = [[0.0, 5.0], [60.0, 25.0]]\nmax_rate_deg = 0.5\n"
+    text = "[vessel]\nspeed_knots = 10.0\n[autopilot]\nschedule = [[0.0, 5.0], [60.0, 25.0]]\nmax_rate_deg = 0.5\n"
     pilot = build_control._autopilot(made(text + "[autopilot.rudder]\narea = 15.0\n"))
     np.testing.assert_allclose(pilot.heading, [[0.0, 5 * deg], [60.0, 25 * deg]])
     assert pilot.max_rate == pytest.approx(0.5 * deg)

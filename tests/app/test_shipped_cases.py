@@ -24,7 +24,7 @@ def call(*words) -> tuple[int, str, str]:
 
 def shortened(text: str, **changes: str) -> str:
     """The case with few panels and frequencies, a minute long, one realisation."""
-    given = {"panels": "120", "omega_count": "7", "duration": "60.0", "realisations": "1", **changes}
+    given = {"panels": "200", "omega_count": "7", "duration": "60.0", "realisations": "1", **changes}
     for key, value in given.items():
         text, count = re.subn(rf"^{key} = \S+", f"{key} = {value}", text, count=1, flags=re.MULTILINE)
         assert count == 1, key

@@ -13,6 +13,8 @@ Array = NDArray[np.float64]
 
 #: A straight track is sailed where it is so many times longer than the deviations from it.
 _UNDER_WAY = 6.0
+#: m/s; a vessel that moves more slowly keeps its place.
+_SLOWEST = 0.1
 #: rad; a vessel whose heading changes more than this has no mean course.
 _TURNED = np.radians(45.0)
 _HORIZONTAL = ("surge", "sway", "yaw")
@@ -73,7 +75,7 @@ def mean_course(time: Array, eta: Array) -> Course:
     Notes
     -----
     The track is the straight line x_0 + v t of least squares, with v = 0 where it is shorter than six standard deviations of
-    what is left of it: the slow motion about a mooring is no course.
+    what is left of it or slower than 0.1 m/s: the slow motion about a mooring is no course.
 
     Examples
     --------
@@ -90,7 +92,8 @@ def mean_course(time: Array, eta: Array) -> Course:
     fit = np.linalg.lstsq(basis, place, rcond=None)[0]
     length = float(np.hypot(*fit[1]) * t[-1])
     left = float(np.sqrt(np.mean(np.sum((place - basis @ fit) ** 2, axis=1))))
-    start, velocity = fit if length > _UNDER_WAY * left else (place.mean(axis=0), np.zeros(2))
+    under_way = length > _UNDER_WAY * left and length > _SLOWEST * t[-1]
+    start, velocity = fit if under_way else (place.mean(axis=0), np.zeros(2))
     return Course(start, velocity, float(psi.mean()), float(np.ptp(psi)))
 
 

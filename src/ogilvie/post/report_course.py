@@ -58,7 +58,9 @@ def _signals(run: "xr.Dataset", skip: float) -> list[tuple[str, str]]:
         for ending, title, factor, unit in _SIGNALS:
             if key.partition("_")[2] == ending:
                 x = run[key].values[..., run.time.values >= float(run.time[0]) + skip] * factor
-                mean, std, largest = (number(float(v), 3) for v in (x.mean(), x.std(), np.abs(x).max()))
+                largest = float(np.abs(x).max())
+                mean, std = (float(v) if abs(v) > 1e-9 * largest else 0.0 for v in (x.mean(), x.std()))
+                mean, std, largest = (number(v, 3) for v in (mean, std, largest))
                 rows.append((title, f"mean {mean}, std {std}, largest {largest} {unit}"))
         if "_thrust of " in key and not key.endswith((" forward", " to port")):
             x = run[key].values[..., run.time.values >= float(run.time[0]) + skip]
