@@ -73,7 +73,7 @@ def test_an_unknown_case(tmp_path):
 @pytest.mark.filterwarnings("default::ogilvie.errors.OgilvieWarning")
 def test_the_container_ship_sails(tmp_path):
     """Shortened: it makes way at its speed, heeds its heading, and the report says what blew and flowed."""
-    (tmp_path / "ship.toml").write_text(shortened(shipped_cases()["container_ship"]))
+    (tmp_path / "ship.toml").write_text(shortened(shipped_cases()["container_ship"], panels="120"))
     code, out, err = call("run", tmp_path / "ship.toml")
     assert code == 0, err
     folder = tmp_path / "ship-results"

@@ -60,7 +60,8 @@ def track(run: "xr.Dataset", *, length: float | None = None, beam: float | None 
         fig = new_figure(4.8)
         _map(fig.add_subplot(), t, eta, outline, length)
     if len(eta) > 1:
-        fig.text(0.995, 0.005, f"grey: {min(len(eta), _MOST) - 1} more of {_count(run)} realisations", ha="right", fontsize=6.5)
+        note = f"grey: {min(len(eta), _MOST) - 1} more of {_count(run)} realisations"
+        fig.axes[-1].set_title(note, loc="right", weight="normal", fontsize=6.5)
     return fig
 
 
@@ -100,7 +101,7 @@ def _map(ax: Any, t: Array, eta: Array, outline: Array, length: float | None) ->
 
 def _outline(length: float, beam: float) -> Array:
     """A ship seen from above, bow towards +x."""
-    x = np.concatenate([[-0.5], np.linspace(-0.47, 0.5, 25)])
+    x = np.concatenate([[-0.5, -0.47], 0.15 + 0.35 * np.sin(np.linspace(0.0, 0.5 * np.pi, 25))])
     y = np.where(x < 0.15, 1.0, np.sqrt(np.maximum(1.0 - ((x - 0.15) / 0.35) ** 2, 0.0)))
     y[0] = 0.8
     side = np.stack([length * x, 0.5 * beam * y], axis=1)
