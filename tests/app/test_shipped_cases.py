@@ -107,3 +107,20 @@ def test_vessels_that_keep_their_place(name, tmp_path):
     assert float(np.abs(run.eta.sel(dof="yaw")).max()) < np.radians(10.0)
     held = "force_positioning" if name == "supply_vessel" else "force_mooring"
     assert float(np.abs(run[held]).max()) > 1e4
+
+
+@pytest.mark.filterwarnings("default::ogilvie.errors.OgilvieWarning")
+def test_a_ship_that_turns_has_no_mean_course(tmp_path):
+    """A course change of 90 degrees in calm water, from hull to figures: what needs a mean course is left out."""
+    text = shortened(shipped_cases()["container_ship"], duration="240.0", panels="300", omega_count="24")
+    text = re.sub(r"\[sea\].*?\[wind\]", '[sea]\nspectrum = "calm"\n[wind]', text, flags=re.DOTALL)
+    text = text.replace("[autopilot]\nheading_deg = 0.0", "[autopilot]\nschedule = [[0.0, 0.0], [20.0, 90.0]]")
+    text = text.replace('gust = "npd"', "")
+    (tmp_path / "ship.toml").write_text(text)
+    code, out, err = call("run", tmp_path / "ship.toml")
+    assert code == 0, err
+    assert "no mean track" in out
+    assert not re.search(r"^ surge", out, re.MULTILINE)
+    run = read_result(tmp_path / "ship-results" / "result.nc")
+    assert float(run.eta.sel(dof="yaw")[-1]) == pytest.approx(np.pi / 2, abs=np.radians(10.0))
+    assert float(run.eta.sel(dof="sway")[-1]) > 500.0  # to port

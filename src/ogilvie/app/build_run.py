@@ -199,5 +199,6 @@ def statistics(case: Case, run: "xr.Dataset") -> "xr.Dataset | None":
         warnings.warn("no statistics: the run ended before enough of it was done", OgilvieWarning)
         return None
     found = summary(about_course(run, skip=skip), skip=skip)
-    about = "the mean course (surge along it, sway to port of it)" if run.attrs.get("motions") == "large" else ""
+    straight = run.attrs.get("motions") == "large" and "surge" in found.dof.values
+    about = "the mean course (surge along it, sway to port of it)" if straight else ""
     return found.assign_attrs(about=about)

@@ -163,9 +163,11 @@ def _simulated(case: Case, f: Findings, place: Workspace, painter: Painter, prog
         place.keep(write_result(run, place.folder / "result.nc"))
         tell(f"{run.sizes.get('realisation', 1)} x {float(run.time[-1]):.4g} s")
     skip = build_run.skipped(case)
+    statistics = build_run.statistics(case, run)
+    if statistics is not None and "surge" not in statistics.dof.values and case.large:
+        compared = {"response": compared["response"]} if "response" in compared else {}  # it turned away from that heading
     painter.draw(run_figures(run, spectrum=spectrum, expected=compared.get("expected_spectra"), skip=skip, hull=f.hull))
     painter.draw(_moored(vessel, run, skip))
-    statistics = build_run.statistics(case, run)
     said: dict[str, Any] = {"weather": weather(case, f.hull), "loads": vessel.names}
     return replace(f, spectrum=spectrum, sea=sea, run=run, skip=skip, statistics=statistics, **said, **compared)
 

@@ -41,7 +41,7 @@ def print_motions(
         return
     head, rows = motion_rows(statistics, expected)
     n, seconds = statistics.attrs["realisations"], statistics.attrs["duration"]
-    where = " about the mean course" if run is not None and run.attrs.get("motions") == "large" else ""
+    where = " about the mean course" if statistics.attrs.get("about") else ""
     table(rows, head=head, title=f"motions of O{where}, {n} x {seconds:.4g} s")
     if run is not None and (course := course_rows(run, skip=skip)):
         table(course, left=frozenset({0, 1}))

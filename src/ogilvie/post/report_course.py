@@ -59,9 +59,8 @@ def _signals(run: "xr.Dataset", skip: float) -> list[tuple[str, str]]:
             if key.partition("_")[2] == ending:
                 x = run[key].values[..., run.time.values >= float(run.time[0]) + skip] * factor
                 largest = float(np.abs(x).max())
-                mean, std = (float(v) if abs(v) > 1e-9 * largest else 0.0 for v in (x.mean(), x.std()))
-                mean, std, largest = (number(v, 3) for v in (mean, std, largest))
-                rows.append((title, f"mean {mean}, std {std}, largest {largest} {unit}"))
+                mean, std = (number(float(v) if abs(v) > 1e-9 * largest else 0.0, 3) for v in (x.mean(), x.std()))
+                rows.append((title, f"mean {mean}, std {std}, largest {number(largest, 3)} {unit}"))
         if "_thrust of " in key and not key.endswith((" forward", " to port")):
             x = run[key].values[..., run.time.values >= float(run.time[0]) + skip]
             name = key.split("_thrust of ")[1]
