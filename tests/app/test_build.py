@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import ogilvie as og
-from ogilvie.app import build, build_run
+from ogilvie.app import build, build_memory, build_run
 from ogilvie.app.case import parse_case
 from ogilvie.errors import InputError, OgilvieWarning
 
@@ -54,7 +54,7 @@ def test_kg_counts_from_the_keel():
 def test_mooring_gives_the_natural_period_that_was_asked_for():
     case = parse_case(HEAD + SEA + "[loads]\nmooring_period = { surge = 50.0, heave = 3.0 }")
     hydro, body = barge(), build.make_body(case, None)
-    K = build.mooring_stiffness(case, body, hydro)
+    K = build_memory.mooring_stiffness(case, body, hydro)
     total = K + hydro.hydrostatic_stiffness.values
     M = body.matrix + hydro.added_mass.values[0]
     assert 2 * np.pi * np.sqrt(M[0, 0] / total[0, 0]) == pytest.approx(50.0)
@@ -64,7 +64,7 @@ def test_mooring_gives_the_natural_period_that_was_asked_for():
 def test_springs_cannot_lengthen_a_period():
     case = parse_case(HEAD + SEA + "[loads]\nmooring_period = { heave = 30.0 }")
     with pytest.raises(InputError, match=r"mooring_period.heave: 30: a period shorter than the unmoored one, 6.28"):
-        build.mooring_stiffness(case, build.make_body(case, None), barge())
+        build_memory.mooring_stiffness(case, build.make_body(case, None), barge())
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ import ogilvie as og
 from ogilvie.app.cli import app
 from ogilvie.app.console import DEBUG_VARIABLE
 
-COMMANDS = ("demo", "run", "hydro", "check", "identify", "simulate", "plot", "validate")
+COMMANDS = ("demo", "cases", "run", "hydro", "check", "identify", "simulate", "plot", "validate")
 
 
 def call(*words) -> tuple[int, str, str]:

@@ -16,7 +16,7 @@ import pytest
 from typer.testing import CliRunner
 
 import ogilvie as og
-from ogilvie.app import build, build_run
+from ogilvie.app import build, build_memory, build_run
 from ogilvie.app.case import parse_case
 from ogilvie.app.cli import app
 
@@ -128,7 +128,7 @@ def first_realisation(path) -> og.Stepper:
     body = build.make_body(case, None)
     hydro = build.make_hydro(case, None, body)
     sea = build_run.make_sea(case, build_run.make_spectrum(case), hydro)
-    vessel = build_run.make_vessel(case, body, hydro, *build.make_memory(case, hydro, body))
+    vessel = build_run.make_vessel(case, body, hydro, *build_memory.make_memory(case, hydro, body))
     return og.Stepper(vessel, sea.isel(0), dt=case.simulation.dt)
 
 
@@ -258,3 +258,20 @@ def test_help_is_quick_to_load():
     text, loaded = out.split("LOADED")
     assert "real time" in text
     assert not {"numpy", "scipy", "xarray", "numba", "ogilvie.sim"} & set(loaded.split())
+
+
+def test_large_motions_are_sent_as_poses_in_the_world(buoy, tmp_path, ear):
+    """A current turns the case into one of large motions; it drifts with the water, and no steady frame is added."""
+    text = buoy.read_text() + "[current]\nspeed = 1.0\ndirection_deg = 90.0\n[damping]\nquadratic = { sway = 1e5 }\n"
+    text = re.sub(r"hs = 1.0\s+tp = 8.0\s+direction_deg = 120.0", 'spectrum = "calm"', text).replace("realisations = 3", "")
+    text = text.replace("mooring_period = { surge = 30.0, sway = 30.0, yaw = 30.0 }", "")
+    text = text.replace("damping_ratio = { surge = 0.1, sway = 0.1, yaw = 0.1 }", "")
+    (tmp_path / "buoy.nc").write_bytes((buoy.parent / "buoy.nc").read_bytes())
+    (tmp_path / "buoy.toml").write_text(text)
+    process = started(tmp_path / "buoy.toml", ear, "--duration", "4", "--factor", "8")
+    _, err = process.communicate(timeout=120)
+    assert process.returncode == 0, err
+    lines = [json.loads(line) for line in drained(ear)]
+    assert len(lines) == 80
+    assert lines[-1]["eta"][1] - lines[0]["eta"][1] > 0.05
+    assert lines[-1]["eta"][5] == pytest.approx(math.radians(30.0), abs=0.2)

@@ -1,8 +1,5 @@
-"""From a case to hull, body, coefficients and fluid memory."""
+"""From a case to hull, body and coefficients."""
 
-import contextlib
-import warnings
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,18 +7,13 @@ from numpy.typing import NDArray
 
 from ogilvie.app.case import Case
 from ogilvie.app.crosschecks import default_range
-from ogilvie.app.files import read_memory, write_memory
-from ogilvie.app.sections import Memory
 from ogilvie.body import RigidBody
-from ogilvie.errors import FormatError, InputError, OgilvieWarning
-from ogilvie.hydro.schema import DOFS
+from ogilvie.errors import InputError
 from ogilvie.units import deg, knot
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from ogilvie.memory.retardation import Retardation
-    from ogilvie.memory.statespace import StateSpace
     from ogilvie.mesh.hydrostatics import Hydrostatics
     from ogilvie.mesh.panels import PanelMesh
 
@@ -32,33 +24,57 @@ def make_hull(case: Case) -> "PanelMesh | None":
     """Return the wetted hull of a case, or None where it has coefficients only."""
     if case.hull is None:
         return None
-    h: Any = case.hull  # which keys are there was checked with the case
-    if h.file is not None:
-        from ogilvie.mesh.files import load_mesh
-        from ogilvie.mesh.inspect import require_usable
+    if case.hull.file is None:
+        return _shape(case, above_water=False)
+    from ogilvie.mesh.inspect import require_usable
 
-        mesh = load_mesh(case.path(h.file)).immersed(h.draught)
-        require_usable(mesh, purpose="hull.file")
-        return mesh
+    mesh = _floating(case).immersed()
+    require_usable(mesh, purpose="hull.file")
+    return mesh
+
+
+def make_whole_hull(case: Case) -> "PanelMesh":
+    """Return the hull of a case up to its deck, for restoring at large heel."""
+    if case.hull is not None and case.hull.file is None:
+        return _shape(case, above_water=True)
+    mesh = _floating(case)
+    if mesh.bounds[1, 2] <= mesh.tolerance:
+        raise InputError(
+            f'restoring.kind: "{case.restoring and case.restoring.kind}": a hull up to its deck expected, hull.file ends '
+            f"{mesh.bounds[1, 2]:.3g} m above the water. Give a mesh with the sides above the water, or a file of levers."
+        )
+    return mesh
+
+
+def _floating(case: Case) -> "PanelMesh":
+    """The mesh of the file at its draught, with what is above the water."""
+    from ogilvie.mesh.files import load_mesh
+
+    h: Any = case.hull
+    mesh = load_mesh(case.path(h.file))
+    return mesh if h.draught is None else mesh.translated((0.0, 0.0, -h.draught - mesh.bounds[0, 2]))
+
+
+def _shape(case: Case, *, above_water: bool) -> "PanelMesh":
     from ogilvie.mesh import shapes
 
+    h: Any = case.hull  # which keys are there was checked with the case
     makers: dict[str, Any] = {
-        "s175": lambda: shapes.s175(panels=h.panels),
+        "s175": lambda: shapes.s175(panels=h.panels, above_water=above_water),
         "box": lambda: shapes.box(h.length, h.beam, h.draught, panels=h.panels),
         "hemisphere": lambda: shapes.hemisphere(h.radius, panels=h.panels),
         "cylinder": lambda: shapes.cylinder(h.radius, h.draught, panels=h.panels),
         "wigley": lambda: shapes.wigley(h.length, h.beam, h.draught, kind=h.variant, panels=h.panels),
-        "particulars": lambda: _from_particulars(h),
+        "particulars": lambda: _from_particulars(h, above_water),
     }
     return makers[str(h.shape)]().named(case.vessel.name)
 
 
-def _from_particulars(h: Any) -> "PanelMesh":
+def _from_particulars(h: Any, above_water: bool) -> "PanelMesh":
     from ogilvie.mesh import shapes
 
-    return shapes.from_particulars(
-        length=h.length, beam=h.beam, draught=h.draught, cb=h.cb, cm=h.cm, cwp=h.cwp, lcb=h.lcb, panels=h.panels
-    )
+    names = ("length", "beam", "draught", "cb", "cm", "cwp", "lcb", "depth", "panels")
+    return shapes.from_particulars(**{key: getattr(h, key) for key in names}, above_water=above_water)
 
 
 def make_body(case: Case, hull: "PanelMesh | None", hydro: "xr.Dataset | None" = None) -> RigidBody:
@@ -121,16 +137,21 @@ def frequencies(case: Case, hull: "PanelMesh") -> Array:
     return np.linspace(float(low), float(high), c.omega_count)  # type: ignore[arg-type]
 
 
-def directions(case: Case) -> Array:
+def directions(case: Case, hull: "PanelMesh | None" = None) -> Array:
     """Return the wave directions relative to the bow that the solver is asked for, rad, ascending.
 
-    By default those that the sea needs: its own, or every 15 deg around it where it is spread.
+    By default those that the vessel meets: that of the sea, or every 15 deg around it where it is spread or the vessel turns;
+    of a hull with a centre plane those of one side.
     """
     if case.coefficients.directions_deg is not None:
         given = np.array(case.coefficients.directions_deg)
     else:
         main = case.sea.direction_deg - case.vessel.heading_deg
-        given = main + np.arange(-180.0, 180.0, 15.0) if case.sea.spreading is not None else np.array([main])
+        around = case.sea.spreading is not None or case.large
+        if around and hull is not None and "xz" in hull.planes:
+            given = np.arange(0.0, 181.0, 15.0)
+        else:
+            given = main + np.arange(-180.0, 180.0, 15.0) if around else np.array([main])
     folded = (given + 180.0) % 360.0 - 180.0
     folded[np.isclose(folded, -180.0)] = 180.0
     return np.unique(folded.round(9)) * deg
@@ -142,23 +163,44 @@ def make_hydro(case: Case, hull: "PanelMesh | None", body: RigidBody | None, *, 
     if c.file is not None:
         from ogilvie.hydro.files import read_hydro
 
-        hydro = read_hydro(case.path(c.file), ulen=c.scale)
-        return _with_statics(hydro, hull, body)
+        return fitted_to_speed(case, _with_statics(read_hydro(case.path(c.file), ulen=c.scale), hull, body), hull)
     from ogilvie.hydro.capytaine import solve_bem
 
     return solve_bem(
         _need(hull),
         body,
         omega=frequencies(case, _need(hull)),
-        wave_direction=directions(case),
+        wave_direction=directions(case, hull),
         rho=water.rho,
         g=water.g,
         water_depth=water.depth,
-        speed=case.vessel.speed_knots * knot,
+        speed=case.speed if c.forward_speed == "panels" else 0.0,
         irregular_frequencies="remove" if c.irregular_frequencies else "keep",
         progress=progress,
         cache=c.cache,
     )
+
+
+def fitted_to_speed(case: Case, hydro: "xr.Dataset", hull: "PanelMesh | None") -> "xr.Dataset":
+    """Return given coefficients as they serve the vessel's speed: at it, or at zero speed with wave forces in two parts.
+
+    Raises
+    ------
+    InputError
+        Coefficients for another speed.
+    """
+    own, at = float(hydro.attrs.get("speed", 0.0)), case.speed
+    if own != 0.0 and abs(own - at) > 1e-3 * max(own, at):
+        raise InputError(
+            f"coefficients: those of zero speed or of the vessel's {at / knot:.4g} knots expected, {own / knot:.4g} knots "
+            f"({own:.4g} m/s) found. Change vessel.speed_knots, or give others."
+        )
+    parts = "Froude_Krylov_force" in hydro or "diffraction_force" in hydro
+    if at == 0.0 or own != 0.0 or parts or hull is None or "excitation_force" not in hydro:
+        return hydro
+    from ogilvie.hydro.at_speed import at_speed
+
+    return at_speed(hydro, at, hull=hull)
 
 
 def _with_statics(hydro: "xr.Dataset", hull: "PanelMesh | None", body: RigidBody | None) -> "xr.Dataset":
@@ -178,72 +220,3 @@ def statics(case: Case, hull: "PanelMesh | None", body: RigidBody) -> "Hydrostat
     from ogilvie.mesh.hydrostatics import hydrostatics
 
     return hydrostatics(hull, body=body, rho=case.water.rho, g=case.water.g)
-
-
-def make_memory(case: Case, hydro: "xr.Dataset", body: RigidBody) -> "tuple[Retardation, StateSpace | None]":
-    """Return retardation functions and, unless the case asks for the convolution, the identified model.
-
-    The fit knows body and restoring, so that it serves the motions. Results are kept on disk by the content of the problem.
-    """
-    m = case.memory
-    stiffness = mooring_stiffness(case, body, hydro)
-    if "hydrostatic_stiffness" in hydro:
-        stiffness = stiffness + hydro.hydrostatic_stiffness.values
-    if not m.cache:
-        return _identified(m, hydro, body, stiffness)
-    kept = _memory_file(m, hydro, body, stiffness)
-    if kept.exists():
-        try:
-            K, ssm = read_memory(kept)
-        except FormatError:
-            kept.unlink(missing_ok=True)
-        else:
-            for note in ssm.notes if ssm is not None else ():
-                warnings.warn(f"identify: {note}", OgilvieWarning)
-            return K, ssm
-    K, ssm = _identified(m, hydro, body, stiffness)
-    with contextlib.suppress(OSError):  # a cache that cannot be written costs time, no more
-        kept.parent.mkdir(parents=True, exist_ok=True)
-        write_memory(kept, K, ssm)
-    return K, ssm
-
-
-def _identified(m: Memory, hydro: "xr.Dataset", body: RigidBody, stiffness: Array) -> "tuple[Retardation, StateSpace | None]":
-    from ogilvie.memory.identify import identify
-    from ogilvie.memory.retardation import retardation
-
-    K = retardation(hydro, duration=m.duration, dt=m.dt, tail=m.tail, frequencies=m.frequencies)
-    if m.model == "convolution":
-        return K, None
-    return K, identify(K, method=m.method, r2=m.r2, max_order=m.max_order, mass=body.matrix, stiffness=stiffness)
-
-
-def _memory_file(m: Memory, hydro: "xr.Dataset", body: RigidBody, stiffness: Array) -> Path:
-    """Where the fluid memory of this problem is kept; another version of the code is another problem."""
-    import ogilvie.memory
-    from ogilvie.hydro.cache import cache_folder, content_key
-
-    names = ("omega", "added_mass", "radiation_damping", "added_mass_inf")
-    arrays = [hydro[name].values for name in names if name in hydro]
-    code = [file.read_text(encoding="utf-8") for file in sorted(Path(ogilvie.memory.__path__[0]).glob("*.py"))]
-    key = content_key(*arrays, body.matrix, stiffness, m.model_dump_json(), str(hydro.attrs.get("name")), *code)
-    return cache_folder() / "memory" / f"{key}.npz"
-
-
-def mooring_stiffness(case: Case, body: RigidBody, hydro: "xr.Dataset") -> Array:
-    """Return the (6, 6) stiffness of the springs: as given, or such that a degree of freedom has the natural period given."""
-    k = np.zeros(6)
-    for dof, value in case.loads.mooring_stiffness.given.items():
-        k[DOFS.index(dof)] = value
-    for dof, period in case.loads.mooring_period.given.items():
-        i, w = DOFS.index(dof), 2 * np.pi / period
-        A = hydro.added_mass.sel(influenced_dof=dof, radiating_dof=dof)
-        inertia = body.matrix[i, i] + float(np.interp(w, A.omega.values, A.values))
-        own = float(hydro.hydrostatic_stiffness.values[i, i]) if "hydrostatic_stiffness" in hydro else 0.0
-        k[i] = w**2 * inertia - own
-        if k[i] <= 0.0:
-            raise InputError(
-                f"loads.mooring_period.{dof}: {period:g}: a period shorter than the unmoored one, "
-                f"{2 * np.pi * np.sqrt(inertia / own):.4g} s, expected. Springs can only shorten it."
-            )
-    return np.diag(k)

@@ -7,11 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ogilvie.app.build import mooring_stiffness
+from ogilvie.app.build_memory import mooring_stiffness
 from ogilvie.app.case import Case
 from ogilvie.errors import InputError, OgilvieWarning
-from ogilvie.hydro.schema import DOFS
-from ogilvie.units import knot
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -19,6 +17,7 @@ if TYPE_CHECKING:
     from ogilvie.body import RigidBody
     from ogilvie.memory.retardation import Retardation
     from ogilvie.memory.statespace import StateSpace
+    from ogilvie.mesh.panels import PanelMesh
     from ogilvie.sim.vessel import Vessel
     from ogilvie.waves.field import Sea
     from ogilvie.waves.spectrum import Spectrum
@@ -49,7 +48,9 @@ def make_spreading(case: Case) -> "Spreading | None":
     """Return the spreading of a case, or None for long-crested waves."""
     from ogilvie.waves.spreading import spreading
 
-    return None if case.sea.spreading is None else spreading(s=case.sea.spreading)
+    if case.sea.spreading is None:
+        return None
+    return spreading(**{"s" if case.sea.spreading_kind == "cos2s" else "n": case.sea.spreading})
 
 
 #: Shares of the sea's variance that the coefficients' frequencies may leave out: without a word (Hs 0.5 % low), with a warning.
@@ -103,24 +104,56 @@ def _within(spectrum: "Spectrum", omega: Array) -> tuple[float, float]:
     return low, high
 
 
-def make_vessel(case: Case, body: "RigidBody", hydro: "xr.Dataset", K: "Retardation", ssm: "StateSpace | None") -> "Vessel":
+def make_vessel(
+    case: Case,
+    body: "RigidBody",
+    hydro: "xr.Dataset",
+    K: "Retardation",
+    ssm: "StateSpace | None",
+    *,
+    hull: "PanelMesh | None" = None,
+) -> "Vessel":
     """Return the vessel with the loads of a case."""
+    from ogilvie.app.build_control import control_loads, mooring
+    from ogilvie.app.build_loads import Made, plain_loads, restoring
     from ogilvie.loads.excitation import WaveExcitation
     from ogilvie.loads.mooring import LinearMooring
     from ogilvie.loads.radiation import Convolution, StateSpaceRadiation
-    from ogilvie.loads.restoring import LinearRestoring
     from ogilvie.loads.viscous import LinearDamping
     from ogilvie.sim.vessel import Vessel
 
-    loads: list[Any] = [LinearRestoring(hydro), Convolution(K) if ssm is None else StateSpaceRadiation(ssm)]
+    made = Made(case, body, hydro, hull)
+    loads: list[Any] = [restoring(made), Convolution(K) if ssm is None else StateSpaceRadiation(ssm)]
     if case.sea.spectrum != "calm":
         loads.append(WaveExcitation(hydro))
     stiffness = mooring_stiffness(case, body, hydro)
     if stiffness.any():
         loads.append(LinearMooring(stiffness))
+    if case.mooring is not None:
+        loads.append(mooring(made))
     if case.loads.damping_ratio.given:
         loads.append(LinearDamping(ratio=case.loads.damping_ratio.given))
-    return Vessel(body, loads=tuple(loads), speed=case.vessel.speed_knots * knot, heading=radians(case.vessel.heading_deg))
+    loads += plain_loads(made) + control_loads(made)
+    return Vessel(body, loads=tuple(loads), speed=case.speed, heading=radians(case.vessel.heading_deg))
+
+
+def motions(case: Case) -> str:
+    """Return the kind of motions of a case, small or large."""
+    return "large" if case.large else "small"
+
+
+def initial(case: Case) -> dict[str, Any] | None:
+    """Return the pose at the start as the simulation takes it: about the steady frame, or in the world for large motions."""
+    start = case.simulation.initial
+    if start is None:
+        return None
+    eta = np.array(start.eta)
+    if case.large:
+        psi = radians(case.vessel.heading_deg)
+        c, s = np.cos(psi), np.sin(psi)
+        eta[:2] = c * eta[0] - s * eta[1], s * eta[0] + c * eta[1]
+        eta[5] += psi
+    return {"eta": eta.tolist()}
 
 
 def simulate_case(case: Case, vessel: "Vessel", sea: Any, *, progress: bool | None = None) -> "xr.Dataset":
@@ -134,8 +167,9 @@ def simulate_case(case: Case, vessel: "Vessel", sea: Any, *, progress: bool | No
         duration=s.duration,
         dt=s.dt,
         ramp=s.ramp,
-        initial=None if s.initial is None else {"eta": s.initial.eta},
+        initial=initial(case),
         method=s.method,
+        motions=motions(case),
         output_step=s.output_step,
         progress=progress,
     )
@@ -144,60 +178,27 @@ def simulate_case(case: Case, vessel: "Vessel", sea: Any, *, progress: bool | No
 
 
 def skipped(case: Case) -> float:
-    """Return the start of the statistics, s: as given, else after the ramp, or after a tenth where a run starts from a pose."""
+    """Return the start of the statistics, s: as given, else after the ramp, or after a tenth where a run starts from a pose.
+
+    So it does where motions are large: control, wind and current take hold of the vessel at the start.
+    """
     s = case.simulation
     if s.skip is not None:
         return s.skip
-    return 0.1 * s.duration if s.initial is not None else 2 * s.ramp if 2 * s.ramp < s.duration else s.ramp
-
-
-def frequency_domain(case: Case, vessel: "Vessel", hydro: "xr.Dataset", body: Any, spectrum: Any) -> dict[str, Any]:
-    """Responses with the damping and springs of the vessel, and what they say about the sea of the case."""
-    if "excitation_force" not in hydro:
-        return {}
-    from ogilvie.hydro.rao import rao
-    from ogilvie.hydro.response import response_spectrum, response_statistics
-    from ogilvie.sim.system import assemble
-
-    system = assemble(vessel)
-    of_data = np.ix_(*(2 * [[DOFS.index(str(d)) for d in hydro.influenced_dof.values]]))
-    extra = system.stiffness[of_data] - hydro.hydrostatic_stiffness.values
-    response = rao(finer(hydro), body, stiffness=extra, damping=system.damping[of_data])
-    out: dict[str, Any] = {"response": response}
-    if spectrum is not None:
-        b = np.radians(case.sea.direction_deg - case.vessel.heading_deg)
-        spread = make_spreading(case)
-        try:
-            out["expected"] = response_statistics(response, spectrum, direction=b, spreading=spread)
-            if case.vessel.speed_knots == 0.0:
-                out["expected_spectra"] = response_spectrum(response, spectrum, direction=b, spreading=spread)
-        except InputError as error:
-            warnings.warn(f"no comparison with the frequency domain: {error}", OgilvieWarning)
-    return out
-
-
-def finer(hydro: "xr.Dataset", *, count: int = 400) -> "xr.Dataset":
-    """Return coefficients interpolated to more frequencies, so that resonances between those of the data are seen.
-
-    Added mass and damping monotonically (PCHIP), excitation by cubic splines, as the time domain has it.
-    """
-    if hydro.sizes["omega"] >= count:
-        return hydro
-    from scipy.interpolate import CubicSpline, PchipInterpolator
-
-    w = np.linspace(float(hydro.omega[0]), float(hydro.omega[-1]), count)
-    w[0], w[-1] = hydro.omega.values[0], hydro.omega.values[-1]
-    ways = {"added_mass": PchipInterpolator, "radiation_damping": PchipInterpolator, "excitation_force": CubicSpline}
-    made = {key: (hydro[key].dims, way(hydro.omega.values, hydro[key].values)(w)) for key, way in ways.items() if key in hydro}
-    return hydro.drop_dims("omega").assign_coords(omega=w).assign(made)
+    ramped = 2 * s.ramp if 2 * s.ramp < s.duration else s.ramp
+    return max(ramped, 0.1 * s.duration) if s.initial is not None or case.large else ramped
 
 
 def statistics(case: Case, run: "xr.Dataset") -> "xr.Dataset | None":
-    """Return the statistics of the motions, or None where a run was cut too short for them."""
+    """Return the statistics of the motions, those of large ones about the mean course; None where a run was cut too short."""
+    from ogilvie.post.course import about_course
     from ogilvie.post.stats import summary
 
     skip = skipped(case)
     if run.sizes["time"] < 16 or float(run.time[-1]) <= skip:
         warnings.warn("no statistics: the run ended before enough of it was done", OgilvieWarning)
         return None
-    return summary(run, skip=skip)
+    found = summary(about_course(run, skip=skip), skip=skip)
+    straight = run.attrs.get("motions") == "large" and "surge" in found.dof.values
+    about = "the mean course (surge along it, sway to port of it)" if straight else ""
+    return found.assign_attrs(about=about)

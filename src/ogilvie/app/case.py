@@ -9,8 +9,13 @@ from typing import Any
 from pydantic import ValidationError
 
 from ogilvie.app.crosschecks import crosschecks
+from ogilvie.app.crosschecks_control import large_motions
 from ogilvie.app.mistakes import describe, unknown_key
+from ogilvie.app.section_base import Section
+from ogilvie.app.section_control import Autopilot, Positioning, SpeedKeeping
+from ogilvie.app.section_loads import Current, Damping, HullLift, Mooring, Resistance, Restoring, Wind
 from ogilvie.app.sections import (
+    OPTIONAL,
     SECTIONS,
     Body,
     Coefficients,
@@ -19,15 +24,12 @@ from ogilvie.app.sections import (
     Memory,
     Output,
     Sea,
-    Section,
     Simulation,
     Vessel,
     Water,
 )
 from ogilvie.errors import FormatError, InputError
-
-#: Sections that a file may leave out altogether; ``body`` and ``hull`` stay None then.
-_OPTIONAL = ("hull", "body")
+from ogilvie.units import knot
 
 
 @dataclass(frozen=True)
@@ -58,6 +60,26 @@ class Case:
     loads: Loads
     simulation: Simulation
     output: Output
+    restoring: Restoring | None = None
+    damping: Damping | None = None
+    resistance: Resistance | None = None
+    hull_lift: HullLift | None = None
+    wind: Wind | None = None
+    current: Current | None = None
+    mooring: Mooring | None = None
+    autopilot: Autopilot | None = None
+    speed_keeping: SpeedKeeping | None = None
+    positioning: Positioning | None = None
+
+    @property
+    def large(self) -> bool:
+        """Whether motions are large: any heading, roll and pitch, poses in the world."""
+        return large_motions(vars(self))
+
+    @property
+    def speed(self) -> float:
+        """Forward speed, m/s."""
+        return self.vessel.speed_knots * knot
 
     @property
     def digest(self) -> str:
@@ -125,7 +147,7 @@ def parse_case(text: str, *, folder: Path | str = ".", name: str = "case", label
     problems += [unknown_key(key, key, ["title", *SECTIONS], "section") for key in data if key not in SECTIONS]
     sections: dict[str, Section | None] = {}
     for key, model in SECTIONS.items():
-        if key in _OPTIONAL and key not in data:
+        if key in OPTIONAL and key not in data:
             sections[key] = None
             continue
         sections[key] = _section(model, data.get(key, {}), key, problems)

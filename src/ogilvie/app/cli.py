@@ -11,7 +11,7 @@ from ogilvie.app.console import DEBUG_VARIABLE, guarded
 app = typer.Typer(
     name="ogilvie",
     help="From a hull to a ship moving in a seaway: coefficients, fluid memory, motions in the time domain.",
-    epilog="Start with `ogilvie demo`; `ogilvie demo --case` prints a case to begin from. Exit codes: 0 done, 1 a check "
+    epilog="Start with `ogilvie demo`; `ogilvie cases` lists case files to begin from. Exit codes: 0 done, 1 a check "
     "failed or a defect of the program, 2 the input cannot be used, 130 interrupted.",
     no_args_is_help=True,
     add_completion=False,
@@ -63,6 +63,26 @@ def demo(
         typer.echo(demo_text(), nl=False)
         return
     run_demo(output, cache=cache)
+
+
+@app.command()
+@guarded
+def cases(
+    name: Annotated[str | None, typer.Argument(metavar="[NAME]", help="The case to copy; without it all are listed.")] = None,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", metavar="FILE.toml", help="Where to; NAME.toml here by default.")
+    ] = None,
+) -> None:
+    """List the cases that come with the package, or copy one.
+
+    Ready to run and to be changed: a ship under autopilot, a vessel on dynamic positioning, a moored one.
+    """
+    from ogilvie.app.demo import copy_case, list_cases
+
+    if name is None:
+        list_cases()
+    else:
+        copy_case(name, output)
 
 
 @app.command()

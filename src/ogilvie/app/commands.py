@@ -128,9 +128,12 @@ def check_command(source: Path, *, draught: float | None) -> bool:
         if kind == "mesh":
             good = _check_mesh(source, draught)
         elif kind == "case":
+            from ogilvie.app.build import make_hull
+            from ogilvie.app.build_control import try_parts
             from ogilvie.app.case import read_case
 
-            read_case(source)
+            case = read_case(source)
+            try_parts(case, make_hull(case))
             say(f"{source.name}: no mistakes.")
             good = True
         elif kind == "coefficients":
@@ -186,24 +189,30 @@ def identify_command(source: Path, *, output: Path, r2: float, duration: float |
 def simulate_command(path: Path, *, coefficients: Path | None, memory: Path | None, output: Path) -> None:
     """Simulate a case, from saved coefficients and fluid memory where they are given."""
     from ogilvie.app import build, build_run
+    from ogilvie.app.build_control import try_parts
+    from ogilvie.app.build_memory import make_memory
     from ogilvie.app.case import read_case
     from ogilvie.app.summary import print_motions
 
     case, notes = read_case(path), list[str]()
     with collected_warnings(notes):
         hull = build.make_hull(case)
+        try_parts(case, hull)
         body = build.make_body(case, hull) if case.body is not None else None
         with step("coefficients"):
-            hydro = build.make_hydro(case, hull, body) if coefficients is None else read_coefficients(coefficients)
+            if coefficients is None:
+                hydro = build.make_hydro(case, hull, body)
+            else:
+                hydro = build.fitted_to_speed(case, read_coefficients(coefficients), hull)
         body = body or build.make_body(case, hull, hydro)
         with step("fluid memory"):
-            K, ssm = build.make_memory(case, hydro, body) if memory is None else read_memory(memory)
+            K, ssm = make_memory(case, hydro, body) if memory is None else read_memory(memory)
         with step("simulation"):
             sea = build_run.make_sea(case, build_run.make_spectrum(case), hydro)
-            run = build_run.simulate_case(case, build_run.make_vessel(case, body, hydro, K, ssm), sea)
+            run = build_run.simulate_case(case, build_run.make_vessel(case, body, hydro, K, ssm, hull=hull), sea)
         write_result(run, output)
     _tell(notes)
-    print_motions(build_run.statistics(case, run))
+    print_motions(build_run.statistics(case, run), run=run, skip=build_run.skipped(case))
     say(f"written to {output}")
     _stop_if_incomplete(run, f"What had been simulated is in {output}.")
 
@@ -211,6 +220,7 @@ def simulate_command(path: Path, *, coefficients: Path | None, memory: Path | No
 def plot_command(source: Path, *, output: Path, format: str, window: tuple[float, float] | None) -> None:
     """Draw what a file holds."""
     from ogilvie.post import plot
+    from ogilvie.post.course import about_course
 
     if format not in ("png", "svg", "pdf"):
         raise InputError(f"--format: one of png, svg, pdf expected, {format!r} found.")
@@ -229,6 +239,9 @@ def plot_command(source: Path, *, output: Path, format: str, window: tuple[float
             made["retardation"] = plot.retardation(*read_memory(source))
         elif kind == "result":
             run = read_result(source)
+            if run.attrs.get("motions") == "large":
+                made["track"], made["controls"] = plot.track(run), plot.controls(run)
+                run = about_course(run)
             made["motions"] = plot.motions(run, window=window)
             if run.sizes["time"] >= 600:
                 made["response_spectra"] = plot.response_spectra(run)

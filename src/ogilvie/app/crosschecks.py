@@ -5,6 +5,10 @@ from math import inf, pi, sqrt
 from pathlib import Path
 from typing import Any
 
+from ogilvie.app.crosscheck_files import missing_file
+from ogilvie.app.crosschecks_control import control_checks
+from ogilvie.app.crosschecks_loads import load_checks
+
 #: Keys that each shape needs; all other lengths are mistakes there.
 SHAPE_KEYS: dict[str, tuple[str, ...]] = {
     "s175": (),
@@ -14,22 +18,14 @@ SHAPE_KEYS: dict[str, tuple[str, ...]] = {
     "wigley": ("length", "beam", "draught", "variant"),
     "particulars": ("length", "beam", "draught", "cb"),
 }
-_ALSO_TAKEN = {"particulars": ("cm", "cwp", "lcb")}
-_ALL_SHAPE_KEYS = ("length", "beam", "radius", "draught", "variant", "cb", "cm", "cwp", "lcb")
+_ALSO_TAKEN = {"particulars": ("cm", "cwp", "lcb", "depth")}
+_ALL_SHAPE_KEYS = ("length", "beam", "radius", "draught", "depth", "variant", "cb", "cm", "cwp", "lcb")
 
 
 def crosschecks(sections: dict[str, Any], *, present: set[str], folder: Path) -> list[str]:
     """Return a sentence for every contradiction between keys; sections that are None (absent or broken) are passed over."""
-    checks = (_source, _hull, _body, _coefficients, _sea, _range, _simulation, _loads)
+    checks = (_source, _hull, _body, _coefficients, _sea, _range, _simulation, _loads, load_checks, control_checks)
     return [problem for check in checks for problem in check(sections, present, folder)]
-
-
-def _file(path: str, name: str, folder: Path, *, stem: bool = False) -> Iterator[str]:
-    target = folder / Path(name).expanduser()
-    if target.is_dir():
-        yield f'{path}: "{name}": a file expected, a folder found.'
-    elif not target.exists() and not (stem and list(target.parent.glob(target.name + ".*"))):
-        yield f'{path}: "{name}": no such file (relative paths start at the case file\'s folder).'
 
 
 def _source(s: dict[str, Any], present: set[str], folder: Path) -> Iterator[str]:
@@ -45,7 +41,7 @@ def _hull(s: dict[str, Any], present: set[str], folder: Path) -> Iterator[str]:
     if (hull.file is None) == (hull.shape is None):
         yield f"hull: exactly one of file and shape expected, {'none' if hull.file is None else 'both'} found."
     elif hull.file is not None:
-        yield from _file("hull.file", hull.file, folder)
+        yield from missing_file("hull.file", hull.file, folder)
         for key in hull.model_fields_set & (set(_ALL_SHAPE_KEYS) - {"draught"} | {"panels"}):
             yield f"hull.{key}: only with shape; the mesh file has its own. Remove it."
     else:
@@ -91,8 +87,9 @@ def _coefficients(s: dict[str, Any], present: set[str], folder: Path) -> Iterato
     if c is None:
         return
     solver = {"omega", "periods", "omega_min", "omega_max", "omega_count", "directions_deg", "irregular_frequencies", "cache"}
+    solver |= {"forward_speed"}
     if c.file is not None:
-        yield from _file("coefficients.file", c.file, folder, stem=True)
+        yield from missing_file("coefficients.file", c.file, folder, stem=True)
         for key in sorted(c.model_fields_set & solver):
             yield f"coefficients.{key}: only where coefficients are computed; file has its own. Remove one of the two."
         return
@@ -125,6 +122,8 @@ def _sea(s: dict[str, Any], present: set[str], folder: Path) -> Iterator[str]:
         foreign -= {"spreading"}
     if sea.spectrum == "jonswap":
         foreign -= {"gamma"}
+    if sea.spreading is None and "spreading_kind" in sea.model_fields_set:
+        yield "sea.spreading_kind: only with spreading. Give its exponent, or remove this."
     if sea.spectrum in ("regular", "calm"):
         foreign |= {"components", "method", "random", "seed"}
     for key in sorted(sea.model_fields_set & foreign):

@@ -11,6 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ogilvie.app import build, build_run
+from ogilvie.app.build_control import try_parts
+from ogilvie.app.build_memory import make_memory
 from ogilvie.app.case import Case, read_case
 from ogilvie.app.console import say, stderr, step, warn
 from ogilvie.app.files import collected_warnings
@@ -113,17 +115,18 @@ def make_stepper(case: Case, duration: float) -> "Stepper":
     s, notes = case.simulation, list[str]()
     with collected_warnings(notes):
         hull = build.make_hull(case)
+        try_parts(case, hull)
         body = build.make_body(case, hull) if case.body is not None else None
         with step("coefficients"):
             hydro = build.make_hydro(case, hull, body)
         body = body or build.make_body(case, hull, hydro)
         with step("fluid memory"):
-            K, ssm = build.make_memory(case, hydro, body)
+            K, ssm = make_memory(case, hydro, body)
         sea = build_run.make_sea(case, build_run.make_spectrum(case), hydro)
-        vessel = build_run.make_vessel(case, body, hydro, K, ssm)
-        initial: Any = None if s.initial is None else {"eta": s.initial.eta}
+        vessel = build_run.make_vessel(case, body, hydro, K, ssm, hull=hull)
+        options: Any = {"method": s.method, "motions": build_run.motions(case), "initial": build_run.initial(case)}
         with step("stepper"):
-            stepper = Stepper(vessel, sea, dt=s.dt, ramp=s.ramp, initial=initial, method=s.method)
+            stepper = Stepper(vessel, sea, dt=s.dt, ramp=s.ramp, **options)
     for note in notes:
         warn(note)
     return stepper

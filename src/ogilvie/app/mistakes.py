@@ -1,5 +1,6 @@
 """Mistakes of a case file in plain words: path in the file, what was found, what is expected, what it may have meant."""
 
+import re
 from difflib import get_close_matches
 from typing import Any, get_args
 
@@ -66,8 +67,14 @@ def _path(model: type[BaseModel], loc: tuple[int | str, ...], prefix: str) -> st
 
 def _inner(model: type[BaseModel], key: str) -> type[BaseModel] | None:
     field = model.model_fields.get(key)
-    kinds = (field.annotation, *get_args(field.annotation)) if field else ()
-    return next((k for k in kinds if isinstance(k, type) and issubclass(k, BaseModel)), None)
+    return _model_in(field.annotation) if field else None
+
+
+def _model_in(annotation: Any) -> type[BaseModel] | None:
+    """The model inside an annotation such as ``list[Model] | None``."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return annotation
+    return next((found for part in get_args(annotation) if (found := _model_in(part)) is not None), None)
 
 
 def _sentence(path: str, items: list[dict[str, Any]], model: type[BaseModel]) -> str:
@@ -88,7 +95,7 @@ def _sentence(path: str, items: list[dict[str, Any]], model: type[BaseModel]) ->
 
 
 def _words(item: dict[str, Any]) -> list[str]:
-    return [w.strip(" '\"") for w in item["ctx"]["expected"].replace(" or ", ", ").split(",")]
+    return re.findall(r"'([^']*)'", item["ctx"]["expected"])
 
 
 def _wanted(item: dict[str, Any]) -> str:

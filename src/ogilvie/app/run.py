@@ -8,16 +8,33 @@ from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ogilvie.app import build, build_run
+from ogilvie.app.build_control import try_parts
+from ogilvie.app.build_memory import make_memory
 from ogilvie.app.case import Case
+from ogilvie.app.compare import frequency_domain
 from ogilvie.app.console import step
 from ogilvie.app.drawing import Painter
 from ogilvie.app.files import collected_warnings, write_bytes, write_memory, write_result, write_text
+from ogilvie.app.weather import weather
 from ogilvie.errors import ConvergenceError
 from ogilvie.post.report import Findings, report
-from ogilvie.post.report_figures import hull_figures, memory_figures, overview_figure, run_figures, wave_figures
+from ogilvie.post.report_figures import (
+    Job,
+    hull_figures,
+    memory_figures,
+    mooring_figure,
+    overview_figure,
+    run_figures,
+    wave_figures,
+)
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from ogilvie.sim.vessel import Vessel
 
 
 @dataclass(eq=False)
@@ -101,6 +118,7 @@ def _prepared(case: Case, place: Workspace, painter: Painter, progress: bool | N
 
     with step("hull") as tell:
         hull = build.make_hull(case)
+        try_parts(case, hull)
         if hull is not None:
             painter.draw(hull_figures(hull))
             tell(f"{hull.full().n_faces} panels, {hull.volume:.6g} m3")
@@ -116,7 +134,7 @@ def _prepared(case: Case, place: Workspace, painter: Painter, progress: bool | N
         checks = check(hydro)
         tell(f"{len(checks.findings)} findings" if checks.findings else "no findings")
     with step("fluid memory") as tell:
-        K, ssm = build.make_memory(case, hydro, body)
+        K, ssm = make_memory(case, hydro, body)
         place.keep(write_memory(place.folder / "memory.npz", K, ssm))
         painter.draw(memory_figures(hydro, K, ssm))
         tell(f"convolution over {K.duration:.4g} s" if ssm is None else f"{ssm.order} states, {ssm.method}")
@@ -138,16 +156,31 @@ def _simulated(case: Case, f: Findings, place: Workspace, painter: Painter, prog
     with step("simulation") as tell:
         spectrum = build_run.make_spectrum(case)
         sea = build_run.make_sea(case, spectrum, f.hydro)
-        vessel = build_run.make_vessel(case, f.body, f.hydro, f.K, f.ssm)
-        compared = build_run.frequency_domain(case, vessel, f.hydro, f.body, spectrum)
+        vessel = build_run.make_vessel(case, f.body, f.hydro, f.K, f.ssm, hull=f.hull)
+        compared = frequency_domain(case, vessel, f.hydro, f.body, spectrum)
         painter.draw(wave_figures(spectrum, sea, compared.get("response")))
         run = build_run.simulate_case(case, vessel, sea, progress=progress)
         place.keep(write_result(run, place.folder / "result.nc"))
         tell(f"{run.sizes.get('realisation', 1)} x {float(run.time[-1]):.4g} s")
     skip = build_run.skipped(case)
-    painter.draw(run_figures(run, spectrum=spectrum, expected=compared.get("expected_spectra"), skip=skip))
     statistics = build_run.statistics(case, run)
-    return replace(f, spectrum=spectrum, sea=sea, run=run, skip=skip, statistics=statistics, **compared)
+    if statistics is not None and "surge" not in statistics.dof.values and case.large:
+        compared = {"response": compared["response"]} if "response" in compared else {}  # it turned away from that heading
+    painter.draw(run_figures(run, spectrum=spectrum, expected=compared.get("expected_spectra"), skip=skip, hull=f.hull))
+    painter.draw(_moored(vessel, run, skip))
+    said: dict[str, Any] = {"weather": weather(case, f.hull), "loads": vessel.names}
+    return replace(f, spectrum=spectrum, sea=sea, run=run, skip=skip, statistics=statistics, **said, **compared)
+
+
+def _moored(vessel: "Vessel", run: "xr.Dataset", skip: float) -> dict[str, Job]:
+    """The picture of catenary lines at the mean pose."""
+    from ogilvie.loads.mooring_lines import CatenaryMooring
+
+    lines = next((load for load in vessel.loads if isinstance(load, CatenaryMooring)), None)
+    if lines is None or float(run.time[-1]) <= skip:
+        return {}
+    eta = run.eta.sel(time=slice(skip, None)).values
+    return mooring_figure(lines, eta.reshape(-1, 6).mean(axis=0))
 
 
 def _shown(case: Case, f: Findings, place: Workspace, painter: Painter, began: float) -> Findings:

@@ -6,27 +6,25 @@ Numbers are SI. Degrees and knots appear only where the key says so (``direction
 from math import radians
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
-Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
-NonNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
-Finite = Annotated[float, Field(allow_inf_nan=False)]
-Fraction = Annotated[float, Field(ge=0, lt=1, allow_inf_nan=False)]
-Angle = Annotated[float, Field(ge=-360, le=360, allow_inf_nan=False)]
-Text = Annotated[str, Field(min_length=1)]
-Vector3 = Annotated[tuple[Finite, Finite, Finite], Field(strict=False)]
-Lengths3 = Annotated[tuple[Positive, Positive, Positive], Field(strict=False)]
-Row3 = Annotated[tuple[Finite, Finite, Finite], Field(strict=False)]
-Matrix3 = Annotated[tuple[Row3, Row3, Row3], Field(strict=False)]
+from ogilvie.app.section_base import (
+    Angle,
+    Finite,
+    Lengths3,
+    Matrix3,
+    NonNegative,
+    PerDof,
+    Positive,
+    Section,
+    Text,
+    Vector3,
+)
+from ogilvie.app.section_control import Autopilot, Positioning, SpeedKeeping
+from ogilvie.app.section_loads import Current, Damping, HullLift, Mooring, Resistance, Restoring, Wind
 
 Shape = Literal["s175", "box", "hemisphere", "cylinder", "wigley", "particulars"]
 Spectrum = Literal["jonswap", "bretschneider", "pierson-moskowitz", "torsethaugen", "regular", "calm"]
-
-
-class Section(BaseModel):
-    """A table of the case file; unknown keys are mistakes."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
 
 class Vessel(Section):
@@ -38,11 +36,12 @@ class Vessel(Section):
 
 
 class Hull(Section):
-    """A mesh file, or a shape made here with its parameters (m)."""
+    """A mesh file, or a shape made here with its parameters (m); depth, from keel to deck, is for restoring at large heel."""
 
     file: Text | None = None
     shape: Shape | None = None
     draught: Positive | None = None
+    depth: Positive | None = None
     panels: Annotated[int, Field(ge=8, le=20000)] = 1000
     length: Positive | None = None
     beam: Positive | None = None
@@ -74,7 +73,11 @@ class Water(Section):
 
 
 class Coefficients(Section):
-    """A file of coefficients, or frequencies and directions for the panel solver."""
+    """A file of coefficients, or frequencies and directions for the panel solver.
+
+    At forward speed the panel solver meets each wave at its own frequency (`forward_speed = "panels"`, ten times the work), or
+    what it solved at zero speed is carried to the speed by the rule of :func:`ogilvie.at_speed` ("rule", at any speed).
+    """
 
     file: Text | None = None
     scale: Positive | None = None
@@ -85,6 +88,7 @@ class Coefficients(Section):
     omega_count: Annotated[int, Field(ge=2, le=1000)] = 40
     directions_deg: Annotated[list[Angle], Field(min_length=1)] | None = None
     irregular_frequencies: bool = True
+    forward_speed: Literal["panels", "rule"] = "panels"
     cache: bool = True
 
 
@@ -106,7 +110,8 @@ class Sea(Section):
     """Waves: a spectrum, a regular wave, or calm water. Directions are where waves travel to: 180 deg is head sea.
 
     Without `components` a sea has the multiples of 2 pi/duration as its frequencies. Random amplitudes make it Gaussian, so
-    that its Hs varies from seed to seed as in nature; random phases alone keep Hs.
+    that its Hs varies from seed to seed as in nature; random phases alone keep Hs. `spreading` is s of cos^2s of half the
+    angle from the main direction, or n of cos^n of the angle.
     """
 
     spectrum: Spectrum = "jonswap"
@@ -117,26 +122,11 @@ class Sea(Section):
     period: Positive | None = None
     direction_deg: Angle = 180.0
     spreading: Annotated[float, Field(gt=0, le=200)] | None = None
+    spreading_kind: Literal["cos2s", "cosn"] = "cos2s"
     components: Annotated[int, Field(ge=1, le=100000)] | None = None
     method: Literal["equal-frequency", "equal-energy"] = "equal-frequency"
     random: Literal["amplitude", "phase"] = "amplitude"
     seed: Annotated[int, Field(ge=0)] = 1
-
-
-class PerDof(Section):
-    """One number per degree of freedom; what is left out is not there."""
-
-    surge: Positive | None = None
-    sway: Positive | None = None
-    heave: Positive | None = None
-    roll: Positive | None = None
-    pitch: Positive | None = None
-    yaw: Positive | None = None
-
-    @property
-    def given(self) -> dict[str, float]:
-        """The numbers that the file states."""
-        return {dof: value for dof, value in self.model_dump().items() if value is not None}
 
 
 class Loads(Section):
@@ -167,7 +157,8 @@ class Initial(Section):
 class Simulation(Section):
     """Duration, time step and ramp, s; number of realisations (seeds seed, seed + 1, ...); start of the statistics, s.
 
-    Without a ramp and an initial pose a run starts in the stationary motion, so that there is no transient.
+    Without a ramp and an initial pose a run starts in the stationary motion, so that there is no transient. Motions are large
+    ("auto") where a section that is not linear, steers or holds the vessel is given.
     """
 
     duration: Positive = 3600.0
@@ -177,6 +168,7 @@ class Simulation(Section):
     output_step: Positive | None = None
     realisations: Annotated[int, Field(ge=1, le=100000)] = 1
     skip: NonNegative | None = None
+    motions: Literal["auto", "small", "large"] = "auto"
     initial: Initial | None = None
 
 
@@ -188,6 +180,22 @@ class Output(Section):
     report: bool = True
 
 
+#: Sections without which a file stays as it is; None where they are not given.
+OPTIONAL = (
+    "hull",
+    "body",
+    "restoring",
+    "damping",
+    "resistance",
+    "hull_lift",
+    "wind",
+    "current",
+    "mooring",
+    "autopilot",
+    "speed_keeping",
+    "positioning",
+)
+
 #: Name of the section in the file -> its model.
 SECTIONS: dict[str, type[Section]] = {
     "vessel": Vessel,
@@ -198,6 +206,16 @@ SECTIONS: dict[str, type[Section]] = {
     "memory": Memory,
     "sea": Sea,
     "loads": Loads,
+    "damping": Damping,
+    "restoring": Restoring,
+    "resistance": Resistance,
+    "hull_lift": HullLift,
+    "wind": Wind,
+    "current": Current,
+    "mooring": Mooring,
+    "autopilot": Autopilot,
+    "speed_keeping": SpeedKeeping,
+    "positioning": Positioning,
     "simulation": Simulation,
     "output": Output,
 }

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ogilvie.post.page import Picture, Section, render_page
+from ogilvie.post.page import Picture, Section, Table, render_page
+from ogilvie.post.report_course import course_table
 from ogilvie.post.report_tables import (
     body_table,
     check_table,
@@ -17,6 +18,7 @@ from ogilvie.post.report_tables import (
     statistics_table,
     wave_table,
 )
+from ogilvie.units import knot
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -55,6 +57,10 @@ class Findings:
     checks : check report of the coefficients
     skip : float
         Start of the statistics, s.
+    weather : tuple of (str, str)
+        What wind and current are.
+    loads : tuple of str
+        What acts on the vessel.
     notes : tuple of str
         Warnings and remarks.
     provenance : tuple of (str, str)
@@ -78,6 +84,8 @@ class Findings:
     expected_spectra: "xr.DataArray | None" = None
     checks: Any = None
     skip: float = 0.0
+    weather: tuple[tuple[str, str], ...] = ()
+    loads: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     provenance: tuple[tuple[str, str], ...] = ()
     case_text: str = ""
@@ -107,6 +115,8 @@ def _sections(f: Findings, drawn: Mapping[str, Picture]) -> Sequence[Section]:
     problems = [check_table(f.checks)] if f.checks is not None else []
     findings = [finding.sentence for finding in f.checks.findings] if f.checks is not None else []
     motion_tables = [statistics_table(f.statistics, f.expected)] if f.statistics is not None else []
+    motion_tables += course_table(f.run, skip=f.skip) if f.run is not None else []
+    weather = [Table(f.weather, caption="Wind and current.", wrap=frozenset({1}))] if f.weather else []
     return [
         Section("Overview", pictures=shown("overview")),
         Section("Hull and hydrostatics", pictures=shown("hull"), tables=[*statics, body_table(f)], narrow=True),
@@ -119,8 +129,17 @@ def _sections(f: Findings, drawn: Mapping[str, Picture]) -> Sequence[Section]:
             list(dict.fromkeys([*f.K.notes, *_model_notes(f)])),
         ),
         Section("Responses", pictures=shown("rao")),
-        Section("Sea", pictures=shown("spectrum"), tables=wave_table(f.spectrum, f.sea)),
-        Section("Motions", [_about_run(f)] if f.run is not None else [], shown("motions", "response_spectra"), motion_tables),
+        Section(
+            "Sea, wind and current" if f.weather else "Sea",
+            pictures=shown("spectrum"),
+            tables=[*wave_table(f.spectrum, f.sea), *weather],
+        ),
+        Section(
+            "Motions",
+            [_about_run(f)] if f.run is not None else [],
+            shown("track", "controls", "motions", "response_spectra", "mooring"),
+            motion_tables,
+        ),
         Section("Checks and warnings", [], (), problems, [*findings, *f.notes]),
         Section("Case", verbatim=f.case_text),
         Section("Provenance", tables=[_provenance(f)] if f.provenance else []),
@@ -141,6 +160,8 @@ def _facts(f: Findings) -> list[tuple[str, str]]:
     ]
     if f.ssm is not None:
         facts.append(("memory states", str(f.ssm.order)))
+    if speed := float(f.run.attrs.get("speed", 0.0)) if f.run is not None else 0.0:
+        facts.append(("speed", f"{speed / knot:.3g} kn"))
     if f.spectrum is not None:
         facts.append(("sea", f"Hs {f.spectrum.hs:.3g} m, Tp {f.spectrum.tp:.3g} s"))
     return facts
@@ -189,13 +210,13 @@ def _about_run(f: Findings) -> str:
     text = f"{n} realisation{'s' if n > 1 else ''} of {length} s, dt {number(run.attrs['dt'])} s"
     if n > 1 and len(run.attrs.get("seeds", ())) == n:
         text += f", seeds {run.attrs['seeds'][0]} to {run.attrs['seeds'][-1]}"
-    text += f", {run.attrs['method']}."
+    text += f", {run.attrs['method']}, {run.attrs.get('motions', 'small')} motions."
+    if f.loads:
+        text += f" Loads: {', '.join(f.loads)}."
     if f.skip > 0:
         text += f" Statistics from {number(f.skip)} s on."
     return text + (" INTERRUPTED: this is what had been computed." if not run.attrs.get("complete", 1) else "")
 
 
 def _provenance(f: Findings) -> Any:
-    from ogilvie.post.page import Table
-
     return Table(f.provenance, left=frozenset({0, 1}), wrap=frozenset({1}))

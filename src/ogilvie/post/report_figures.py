@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ogilvie.post import plot
+from ogilvie.post.course import about_course
 
 if TYPE_CHECKING:
     import xarray as xr
 
+    from ogilvie.loads.mooring_lines import CatenaryMooring
     from ogilvie.memory.retardation import Retardation
     from ogilvie.memory.statespace import StateSpace
     from ogilvie.mesh.panels import PanelMesh
@@ -64,17 +66,42 @@ def wave_figures(spectrum: "Spectrum | None", sea: "Sea | None", response: "xr.D
 
 
 def run_figures(
-    run: "xr.Dataset", *, spectrum: "Spectrum | None", expected: "xr.DataArray | None", skip: float
+    run: "xr.Dataset",
+    *,
+    spectrum: "Spectrum | None",
+    expected: "xr.DataArray | None",
+    skip: float,
+    hull: "PanelMesh | None" = None,
 ) -> dict[str, Job]:
-    """Return time histories and, in an irregular sea, spectra of the motions."""
+    """Return time histories and, in an irregular sea, spectra of the motions; of large motions track and control too."""
     window = busiest(run)
-    caption = "Motions around the largest wave of the first realisation." if "elevation" in run else "Motions in calm water."
+    large = run.attrs.get("motions") == "large" and float(run.time[-1] - run.time[0]) > skip
+    caption = "Motions around the largest wave of the first realisation" if "elevation" in run else "Motions in calm water"
+    jobs = voyage_figures(run, hull=hull) if large else {}
+    run = about_course(run, skip=skip) if large else run
+    caption += "; surge, sway and yaw about the mean course." if large and "surge" in run.dof.values else "."
     shown = run[[name for name in ("eta", "elevation") if name in run]]
-    jobs = {"motions": Job(plot.motions, (shown.sel(time=slice(*window)),), caption)}
+    jobs["motions"] = Job(plot.motions, (shown.sel(time=slice(*window)),), caption)
     if spectrum is not None and run.sizes["time"] > 600:
         options = {"expected": expected, "skip": skip}
         jobs["response_spectra"] = Job(plot.response_spectra, (run[["eta"]],), "Spectra of the motions.", options)
     return jobs
+
+
+def voyage_figures(run: "xr.Dataset", *, hull: "PanelMesh | None" = None) -> dict[str, Job]:
+    """Return the track of large motions and what steered and drove the vessel."""
+    size = {} if hull is None else {"length": hull.length, "beam": hull.beam}
+    signals = [key for key in run.data_vars if set(run[key].dims) <= {"realisation", "time"}]
+    drawn = run[[key for key in ("eta", "nu") if key in run] + signals]
+    return {
+        "track": Job(plot.track, (run[["eta"]],), "Where O went, and how the vessel headed.", size),
+        "controls": Job(plot.controls, (drawn,), "Heading, and what steered and drove the vessel, first realisation."),
+    }
+
+
+def mooring_figure(lines: "CatenaryMooring", eta: Any) -> dict[str, Job]:
+    """Return the mooring lines in a pose eta (6,), beside those at the origin."""
+    return {"mooring": Job(plot.mooring, (lines,), "Mooring lines at the mean place and heading.", {"eta": eta})}
 
 
 def overview_figure(

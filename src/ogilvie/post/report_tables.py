@@ -205,8 +205,10 @@ def statistics_table(statistics: "xr.Dataset", expected: "xr.Dataset | None") ->
         row = [dof, unit, mean, cell("std"), f"{low}\u2013{high}", other]
         row += [cell(key) for key in ("significant", "significant_third", "minimum", "maximum", "expected_maximum")]
         rows.append([*row, number(float(s["tz"]), 3)])
+    about = str(statistics.attrs.get("about", ""))
+    where = f" about {about}" if about else ""
     caption = (
-        f"Motions of O: {statistics.attrs['realisations']} x {number(statistics.attrs['duration'])} s. Significant and highest "
-        "third are double amplitudes; the expected maximum is that of one realisation, above the mean."
+        f"Motions of O{where}: {statistics.attrs['realisations']} x {number(statistics.attrs['duration'])} s. Significant and "
+        "highest third are double amplitudes; the expected maximum is that of one realisation, above the mean."
     )
     return Table(rows, head, caption, left=frozenset({0, 1}))

@@ -6,11 +6,13 @@ from ogilvie.post.plot._motions import motions, response_spectra
 from ogilvie.post.plot._overview import overview
 from ogilvie.post.plot._radiation import coefficients, retardation
 from ogilvie.post.plot._style import custom, show, to_png, write
+from ogilvie.post.plot._track import controls, track
 from ogilvie.post.plot._waves import excitation, rao, spectrum
 from ogilvie.post.plot._wind import wind_coefficients
 
 __all__ = [
     "coefficients",
+    "controls",
     "custom",
     "excitation",
     "hull",
@@ -23,6 +25,7 @@ __all__ = [
     "show",
     "spectrum",
     "to_png",
+    "track",
     "wind_coefficients",
     "write",
 ]

@@ -105,7 +105,7 @@ def response_spectra(
         low, high = found.interval.sel(dof=dof).transpose("bound", "omega").values * scale
         ax.fill_between(w, low, high, color=BLUE, alpha=0.18, lw=0, label="95 % interval")
         ax.plot(w, S * scale, color=BLUE, label="time domain")
-        if expected is not None:
+        if expected is not None and dof in expected.dof.values:
             line = expected.sel(dof=dof)
             ax.plot(line.omega, line.values * scale, color=RED, ls=(0, (4, 2)), lw=1.1, label="frequency domain")
         ax.set_title(dof)
@@ -113,8 +113,8 @@ def response_spectra(
         ax.set_xlabel("\u03c9 [rad/s]")
         ax.set_xlim(0, _upper_end(w, S))
         ax.set_ylim(0)
-    handles, labels = fig.axes[0].get_legend_handles_labels()
-    fig.legend(handles, labels, loc="outside upper right", ncols=3)
+    entries = {label: line for ax in fig.axes for line, label in zip(*ax.get_legend_handles_labels(), strict=True)}
+    fig.legend(entries.values(), entries.keys(), loc="outside upper right", ncols=3)
     return fig
 
 

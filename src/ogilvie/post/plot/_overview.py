@@ -71,7 +71,7 @@ def overview(
         scene.set_title(title, fontsize=10)
     spectrum_axes(fig.add_subplot(grid[1, 0]), spectrum, None if spectrum is not None else sea)
     end = 3.2 * 2 * np.pi / spectrum.tp if spectrum is not None else float(1.5 * sea.omega.max())
-    _responses(fig.add_subplot(grid[1, 1]), response, float(sea.direction[0]), end)
+    _responses(fig.add_subplot(grid[1, 1]), response, _towards(sea) - float(run.attrs.get("heading", 0.0)), end)
     _history(fig, grid[1, 2].subgridspec(4, 1), run, eta, moment)
     return fig
 
@@ -86,6 +86,8 @@ def _moment(run: "xr.Dataset", eta: Array) -> int:
 
 def _in_the_world(eta: Array, run: "xr.Dataset", t: float) -> Array:
     """Pose in the world of a motion in the steady frame, which sails at the speed and heading of the vessel."""
+    if run.attrs.get("motions") == "large":
+        return eta
     heading = float(run.attrs.get("heading", 0.0))
     c, s = np.cos(heading), np.sin(heading)
     ahead = float(run.attrs.get("speed", 0.0)) * t + eta[0]
@@ -169,13 +171,18 @@ def _walls(points: Array, level: Array, bottom: float) -> Surface:
 
 def _arrow(ax: Any, sea: "Sea", camera: Camera, level: Array, L: float, side: float) -> None:
     """Where the waves travel to, lying on the water."""
-    b = float(np.average(sea.direction, weights=sea.amplitude**2))
+    b = _towards(sea)
     middle = moved([[0.5 * L, side, 0.0]], level)[0]
     half = 0.09 * L * np.array([np.cos(b), np.sin(b), 0.0])
     start, stop = middle - half, middle + half
     a, e = camera.project([start, stop])[0]
     ax.annotate("", xy=e, xytext=a, arrowprops={"arrowstyle": "-|>", "color": "white", "lw": 1.8, "mutation_scale": 14})
     ax.text(*(0.5 * (a + e) - [0, 0.05 * L]), "waves", color="white", fontsize=8, ha="center", weight="bold")
+
+
+def _towards(sea: "Sea") -> float:
+    """Mean direction of the waves' energy, rad."""
+    return float(np.angle(np.sum(sea.amplitude**2 * np.exp(1j * sea.direction))))
 
 
 def _responses(ax: Any, response: "xr.DataArray | None", direction: float, end: float) -> None:
