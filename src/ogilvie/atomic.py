@@ -21,8 +21,10 @@ def write_whole(path: Path, write: Callable[[Path], Any]) -> Path:
     Raises
     ------
     InputError
-        The folder does not exist.
+        The folder does not exist; something other than a file (a folder, a device) stands in the way.
     """
+    if path.exists() and not path.is_file():
+        raise InputError(f"{path}: the place of a file expected, something else found. Give another name.")
     if not path.parent.is_dir():
         raise InputError(f"{path}: an existing folder expected, no {path.parent} found. Make it first.")
     handle, name = tempfile.mkstemp(prefix=f".{path.stem}-", suffix=path.suffix, dir=path.parent)

@@ -1,12 +1,14 @@
 """The package from outside: public names, quick import, no side effects."""
 
 import importlib.metadata
+import os
 import subprocess
 import sys
 
 import pytest
 
 import ogilvie as og
+from ogilvie.atomic import write_whole
 
 
 @pytest.mark.parametrize("name", sorted(og._PUBLIC))
@@ -28,3 +30,13 @@ def test_import_loads_nothing_heavy():
 
 def test_version_is_the_distribution_s():
     assert importlib.metadata.version("ogilvie") == og.__version__
+
+
+@pytest.mark.parametrize("what", ["folder", "pipe"])
+def test_only_files_are_replaced(tmp_path, what):
+    """Neither a folder nor a device gives way to a file that is written."""
+    target = tmp_path / what
+    target.mkdir() if what == "folder" else os.mkfifo(target)
+    with pytest.raises(og.InputError, match="the place of a file expected"):
+        write_whole(target, lambda path: path.write_text("x"))
+    assert target.exists() and not target.is_file()

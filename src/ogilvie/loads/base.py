@@ -118,6 +118,9 @@ class Terms:
         Compiled force that is not linear in the motion; see :mod:`ogilvie.loads.kernel`.
     small : Terms, optional
         What stands for the whole load in small motions; without it a load with a kernel is for large motions only.
+    suffices : bool
+        Whether `small` is all there is to first order, so that motions are small unless told otherwise. Quadratic damping, say,
+        has a linear part too, but leaving the rest out has to be asked for.
     encounter : callable, optional
         Compiled force of the waves where the vessel is, in place of `wave` and `table` when motions are large.
     control : Sampled, optional
@@ -143,6 +146,7 @@ class Terms:
     table: SecondOrderTable | None = None
     kernel: Kernel | None = None
     small: "Terms | None" = None
+    suffices: bool = False
     encounter: Encounter | None = None
     control: Sampled | None = None
     callback: Callback | None = None

@@ -82,7 +82,7 @@ class HullLift:
         """Return the arrays for the time loop."""
         D = np.zeros((6, 6))
         D[np.ix_([1, 5], [1, 5])] = self.end_mass * surroundings.speed * np.array([[1.0, self.x], [self.x, self.x**2]])
-        return Terms(kernel=Kernel(_lift, np.array([self.end_mass, self.x])), small=Terms(damping=D))
+        return Terms(kernel=Kernel(_lift, np.array([self.end_mass, self.x])), small=Terms(damping=D), suffices=True)
 
 
 @load_kernel

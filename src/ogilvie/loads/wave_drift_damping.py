@@ -134,7 +134,7 @@ class WaveDriftDamping:
         step = max(float(grid[1] - grid[0]), 1e-9)
         data = np.concatenate([[len(grid), grid[0], step, float(limits is None)], self._matrices(grid).ravel()])
         text = "" if limits is None else f"headings {np.degrees(limits[0]):.4g}..{np.degrees(limits[1]):.4g} deg in this sea"
-        return Terms(kernel=Kernel(_damping, data, limits=text), small=small)
+        return Terms(kernel=Kernel(_damping, data, limits=text), small=small, suffices=True)
 
     def _matrices(self, headings: Array) -> Array:
         """Return B (n_h, 2, 2) at headings of the vessel (n_h,)."""

@@ -104,9 +104,10 @@ def are_large(names: Sequence[str], terms: Sequence[Terms], motions: str | None)
     if motions not in (None, *MOTIONS):
         raise InputError(f"motions: one of {', '.join(MOTIONS)} expected, {motions!r} found.")
     beyond = [name for name, term in zip(names, terms, strict=True) if _only_large(term)]
+    more = [term for term in terms if term.kernel is not None and not term.suffices]
     if motions == "small" and beyond:
         raise InputError(f"motions: 'large' expected for the loads {', '.join(beyond)}, which are not linear; 'small' found.")
-    return motions == "large" or bool(beyond)
+    return motions == "large" or (motions is None and bool(beyond or more))
 
 
 def _only_large(term: Terms) -> bool:
