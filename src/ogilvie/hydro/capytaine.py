@@ -30,6 +30,7 @@ from ogilvie.hydro.bem_panels import Facets
 from ogilvie.hydro.bem_result import assemble
 from ogilvie.hydro.bem_store import SolutionStore
 from ogilvie.hydro.cache import cache_folder, fill_folder
+from ogilvie.hydro.drift_solve import Sources
 from ogilvie.hydro.progress import tracked
 from ogilvie.hydro.threads import available_cores, library_threads
 from ogilvie.mesh.panels import PanelMesh
@@ -197,6 +198,33 @@ def _influence(green: Any, facets: Facets, k: float, depth: float, mirror: Array
             f"solve_bem: the Green function cannot be evaluated at k = {k:.6g} rad/m in {depth:.6g} m of water ({e}). "
             "Leave this frequency out."
         ) from e
+
+
+def source_influence(facets: Facets, k: float, depth: float) -> Sources:
+    """Return the influence of sources on all panels, and its gradient, in the convention exp(+i omega t)."""
+    green = _green_function()
+
+    def influence(points: Array, mirror: Array) -> tuple[Complex, Complex]:
+        from capytaine.green_functions.abstract_green_function import GreenFunctionEvaluationError
+
+        try:
+            S, G = green.evaluate(
+                points * mirror,
+                _sources(facets),
+                wavenumber=k,
+                water_depth=depth,
+                adjoint_double_layer=True,
+                early_dot_product=False,
+                diagonal_term_in_double_layer=False,
+            )
+        except (GreenFunctionEvaluationError, NotImplementedError) as e:
+            raise ConvergenceError(
+                f"mean_drift: the Green function cannot be evaluated at k = {k:.6g} rad/m in {depth:.6g} m of water ({e}). "
+                "Leave this frequency out."
+            ) from e
+        return S.conj(), G.conj()
+
+    return influence
 
 
 def _sources(facets: Facets) -> Any:
