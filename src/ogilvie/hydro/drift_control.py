@@ -94,9 +94,7 @@ def _loop(first: FirstOrder, rule: WaterlineRule) -> Complex:
     """Return oint <phi (dX/dt x dl)> and oint <phi x x (dX/dt x dl)> (n_b, n_b, 6)."""
     line = first.hull.waterline
     phi, speed = first.at_waterline(rule), 1j * first.wave.omega * displacement(first.motion, line.middle)
-    force = sum(
-        EPSILON[:, j, k] * integral(phi, speed[..., j], line.tangent[:, k : k + 1]) for j in range(3) for k in range(3)
-    )
+    force = sum(EPSILON[:, j, k] * integral(phi, speed[..., j], line.tangent[:, k : k + 1]) for j in range(3) for k in range(3))
     n_b = len(phi)
     moment = np.zeros((n_b, n_b, 3), dtype=complex)
     for j in range(3):

@@ -6,8 +6,8 @@ Far from the body the scattered and radiated waves are eta = A(theta) R^(-1/2) e
     M_z = (rho g n/2k) int Im(A* A') dtheta - (rho g n/k) (2 pi/k)^(1/2) Re(exp(i pi/4) A'(b))
     0 = (rho g c_g/2) int |A|^2 dtheta + rho g c_g (2 pi/k)^(1/2) Re(exp(-i pi/4) A(b)) + P
 
-per square metre of wave amplitude; P is the power taken by external damping. The last line, the energy balance, has been used in
-the first, whose direct form is a small difference of large numbers in long waves; so it stays as a check. See
+per square metre of wave amplitude; P is the power taken by external damping. The last line, the energy balance, has been used
+in the first, whose direct form is a small difference of large numbers in long waves; so it stays as a check. See
 docs/theory/drift.md.
 """
 
@@ -45,8 +45,9 @@ def far_field(first: FirstOrder) -> FarField:
 
     Notes
     -----
-    Two directions m, n at once: |A|^2 becomes A_m A_n*, and the terms at theta = b become half the sum of A_m(b_n) and A_n(b_m)*.
-    The energy balance of the pair gives one combination of these two; the other, weighted with (cos b_n - cos b_m)/2, stays.
+    Two directions m, n at once: |A|^2 becomes A_m A_n*, and the terms at theta = b become half the sum of A_m(b_n) and
+    A_n(b_m)*. The energy balance of the pair gives one combination of these two; the other, weighted with
+    (cos b_n - cos b_m)/2, stays.
     """
     w, b = first.wave, first.wave.directions
     N = 2 * int(np.ceil(2.0 * w.k * _radius(first) + 24.0))

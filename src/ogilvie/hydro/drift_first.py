@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ogilvie.errors import ConvergenceError
 from ogilvie.hydro.bem_waves import incident
 from ogilvie.hydro.drift_panels import WholeHull
+from ogilvie.hydro.drift_slope import Slopes
 from ogilvie.hydro.drift_solve import Fields, expanded, incident_wave
 
 Array = NDArray[np.float64]
@@ -67,6 +68,8 @@ class FirstOrder:
     ----------
     wave : Wave
     hull : WholeHull
+    slopes : Slopes
+        Neighbours of the panels along the hull.
     fields : Fields
         The six radiated and the n_b diffracted potentials of :func:`ogilvie.hydro.drift_solve.solve_sources`.
     dynamics : Dynamics or None
@@ -75,6 +78,7 @@ class FirstOrder:
 
     wave: Wave
     hull: WholeHull
+    slopes: Slopes
     fields: Fields
     dynamics: Dynamics | None
 
@@ -140,7 +144,9 @@ class FirstOrder:
     @cached_property
     def velocity(self) -> Complex:
         """Total velocity (n_b, n, 3) of the water at the panels, m/s."""
-        return self._total(self.hull.centers, self.fields)[1]
+        n_b, n_hull = len(self.wave.directions), self.hull.panels.n_hull
+        sigma = self.strengths.reshape(n_b, len(self.hull.panels.images), -1)[:, :, :n_hull].reshape(n_b, -1)
+        return np.asarray(self._total(self.hull.centers, self.fields)[1] + self.slopes.missing(sigma))
 
     def at(self, points: Array, fields: Fields) -> tuple[Complex, Complex]:
         """Return the total potential (n_b, n) and velocity (n_b, n, 3) at points (n, 3) with the fields there."""

@@ -37,8 +37,8 @@ def near_field(first: FirstOrder, *, rotation: Rotation, waterline: WaterlineRul
     dS = with_moment(hull.centers, hull.normals * hull.areas[:, None])
     v = first.velocity
     X = displacement(first.motion, hull.centers)
-    velocity = sum(integral(v[..., i], v[..., i], dS) for i in range(3))
-    shifted = sum(integral(X[..., i], 1j * w.omega * v[..., i], dS) for i in range(3))
+    velocity = np.sum([integral(v[..., i], v[..., i], dS) for i in range(3)], axis=0)
+    shifted = np.sum([integral(X[..., i], 1j * w.omega * v[..., i], dS) for i in range(3)], axis=0)
     return {
         "waterline": waterline_force(first, waterline),
         "velocity": 0.5 * w.rho * velocity,

@@ -35,9 +35,9 @@ def second_rotation(products: Complex, rotation: Rotation) -> Complex:
 
     Notes
     -----
-    With S_i the matrix of e_i x (...), every R_i is 1 + a_i S_i + a_i^2 S_i^2/2. So H has the squares on its diagonal and a_i a_j
-    S_i S_j off it, in the order of the factors; S_x S_y = e_y e_x^T. For Rx Ry Rz H is therefore lower triangular, for Rz Ry Rx
-    upper triangular, with the same numbers.
+    With S_i the matrix of e_i x (...), every R_i is 1 + a_i S_i + a_i^2 S_i^2/2. So H has the squares on its diagonal and
+    a_i a_j S_i S_j off it, in the order of the factors; S_x S_y = e_y e_x^T. For Rx Ry Rz H is therefore lower triangular, for
+    Rz Ry Rx upper triangular, with the same numbers.
 
     Examples
     --------
@@ -84,4 +84,4 @@ def static_force(motion: Complex, moments: Moments, *, rotation: Rotation, rho: 
 
 def _double_cross(products: Complex, v: Array) -> Complex:
     """Return <T x (R x v)> = <R (T . v)> - <T . R> v from products <T_i R_j> (..., 3, 3)."""
-    return np.einsum("...ij,i->...j", products, v) - np.einsum("...ii->...", products)[..., None] * v
+    return np.asarray(products.swapaxes(-1, -2) @ v - np.einsum("...ii->...", products)[..., None] * v, dtype=complex)

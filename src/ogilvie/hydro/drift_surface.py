@@ -1,4 +1,4 @@
-"""The control surface of the mean drift: a vertical cylinder with a flat bottom around the hull, and the free surface within."""
+"""The control surface of the mean drift: a vertical cylinder with a flat bottom around the hull, the water surface within."""
 
 from dataclasses import dataclass
 from functools import cached_property
