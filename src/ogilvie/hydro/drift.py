@@ -108,8 +108,8 @@ def mean_drift(
     Warns
     -----
     OgilvieWarning
-        Energy out of balance by over 2 %, or control surface (without it: near field) and far field over 10 % apart; a body
-        that does not float; frequencies above those that the panels resolve.
+        Energy out of balance by over 2 %, or the method asked for over 10 % off the far field; a body that does not float;
+        frequencies above those that the panels resolve.
 
     Notes
     -----
@@ -156,7 +156,7 @@ def mean_drift(
     found = drifts(case, _dynamics(case, body, damping, stiffness), options)
     result = as_dataset(case, found, method=method, moments=moments, pairs=pairs)
     result = result.assign_attrs(rotation=rotation, waterline=waterline, body="fixed" if body is None else body.name)
-    _warn_of_flags(result)
+    _warn_of_flags(result, method)
     return result
 
 
@@ -231,7 +231,7 @@ def _matrix(value: ArrayLike | None, name: str) -> Array:
     return M
 
 
-def _warn_of_flags(result: xr.Dataset) -> None:
-    other = "flag_control_surface" if "flag_control_surface" in result else "flag_pressure"
-    if bool(result.flag_energy.any()) or bool(result[other].any()):
+def _warn_of_flags(result: xr.Dataset, method: Method) -> None:
+    compared = {"near": "flag_pressure", "far": "flag_energy"}.get(method, "flag_control_surface")
+    if bool(result.flag_energy.any()) or bool(result[compared].any()):
         warnings.warn(f"mean_drift: {result.attrs['summary']}", OgilvieWarning, stacklevel=3)

@@ -20,6 +20,7 @@ ENERGY_LIMIT, METHOD_LIMIT = 0.02, 0.10
 _HORIZONTAL = [0, 1, 5]
 _SMALL = 0.1  # of a dof's largest value at all frequencies: less than this is measured against this
 _PART = 0.05  # of the largest horizontal force at that frequency (in yaw times the length): the same
+_LITTLE_PUSH = 0.01  # of the momentum of the incident waves over the hull's breadth (in yaw times the length): the same
 _LITTLE_POWER = 0.05  # of the incident power over the hull's breadth: the same for energy
 _DIMS = ("omega", "wave_direction", "influenced_dof")
 _WORDS = {"pressure": "near field", "control_surface": "control surface", "momentum": "far field"}
@@ -101,7 +102,8 @@ def _quality(full: dict[str, Complex], found: Sequence[Drift]) -> xr.Dataset:
     two = _DIMS[:2]
     out: dict[str, tuple] = {"energy_imbalance": (two, imbalance), "flag_energy": (two, np.abs(imbalance) > ENERGY_LIMIT)}
     far = _alone(full["momentum"])
-    scale_of = _scales(far, found[0].length)
+    push = np.array([d.flux.max() * d.slowness for d in found])
+    scale_of = _scales(far, push, found[0].length)
     for name in ("pressure", "control_surface"):
         if name in full:
             difference = np.abs(_alone(full[name]) - far) / scale_of
@@ -110,18 +112,19 @@ def _quality(full: dict[str, Complex], found: Sequence[Drift]) -> xr.Dataset:
     return xr.Dataset(out)
 
 
-def _scales(far: Array, length: float) -> Array:
+def _scales(far: Array, push: Array, length: float) -> Array:
     """Return what differences are parts of (n_w, 1, 6).
 
-    The largest value over all directions at that frequency, yet no less than a part of the largest at all frequencies and of
-    the largest horizontal force.
+    The largest value over all directions at that frequency, yet no less than parts of the largest at all frequencies, of the
+    largest horizontal force, and of the momentum of the incident waves, `push` (n_w,), N/m2.
     """
     size = np.abs(far).max(axis=1, keepdims=True)
     force = size[..., :2].max(axis=-1, keepdims=True)
     size = np.maximum(size, _SMALL * size.max(axis=0, keepdims=True))
-    size[..., :2] = np.maximum(size[..., :2], _PART * force)
-    size[..., 5:] = np.maximum(size[..., 5:], _PART * length * force)
-    return np.where(size == 0.0, np.finfo(float).tiny, size)
+    least = np.maximum(_PART * force, _LITTLE_PUSH * push[:, None, None])
+    size[..., :2] = np.maximum(size[..., :2], least)
+    size[..., 5:] = np.maximum(size[..., 5:], length * least)
+    return size
 
 
 def _summary(result: xr.Dataset) -> str:

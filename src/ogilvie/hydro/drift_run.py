@@ -56,6 +56,8 @@ class Drift:
     motion : (n_b, 6) array
     flux : (n_b,) array
         Power of the incident waves over the breadth of the hull across them, W/m2.
+    slowness : float
+        k/omega, s/m: momentum over energy of the waves.
     length : float
         Of the hull, m.
     """
@@ -66,6 +68,7 @@ class Drift:
     shift: Complex
     motion: Complex
     flux: Array
+    slowness: float
     length: float
 
 
@@ -88,7 +91,11 @@ def drifts(case: Case, dynamics: Dynamics | None, options: Options) -> list[Drif
             terms = control_drift(first, surface, fields, rotation=options.rotation, waterline=options.waterline)
         near = near_field(first, rotation=options.rotation, waterline=options.waterline)
         shift = cross_mean(first.motion[:, :3], first.pressure_force)
-        out.append(Drift(near, terms, far_field(first), shift, first.motion, _flux(first), case.panels.hull.length))
+        out.append(
+            Drift(
+                near, terms, far_field(first), shift, first.motion, _flux(first), wave.k / wave.omega, case.panels.hull.length
+            )
+        )
     if store:
         store.finish()
     return out

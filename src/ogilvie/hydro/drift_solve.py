@@ -4,7 +4,7 @@
 
 The gradient of G on the hull is kept, so that the velocity costs no more than the potential. Unknowns on the lid are tied by
 
-    sigma = i epsilon K phi,   epsilon = (d/d_max)^2   on z = 0 inside the hull, d from the waterline:
+    sigma = i epsilon K phi,   epsilon = 0.3 (d/d_max)^2   on z = 0 inside the hull, d from the waterline:
 
 a free surface that damps towards its middle. The inner water has no resonance then, and the sources on the hull stay smooth up
 to the waterline, which a rigid lid (or epsilon > 0 at the waterline) spoils. Whatever sources there are inside, the potential
@@ -30,6 +30,10 @@ Complex = NDArray[np.complex128]
 #: Points (n, 3) and mirror signs (3,) -> S (n, n_s) and gradient (3, n, n_s) at the mirrored points due to the stored panels,
 #: without the free term, for exp(+i omega t).
 Sources = Callable[[Array, Array], tuple[Complex, Complex]]
+
+
+#: Damping in the middle of the inner free surface: enough against its resonances, little enough to keep the sources smooth.
+_DAMPING = 0.3
 
 
 @dataclass(frozen=True, eq=False)
@@ -217,16 +221,16 @@ def flux_correction(panels: HullPanels, still: Sources) -> Array:
 
 
 def lid_damping(lid: Array, waterline: Array) -> Array:
-    """Return (d/d_max)^2 of lid panels with centres (n, 3), d the distance to the nearest of the waterline's points (m, 3).
+    """Return 0.3 (d/d_max)^2 of lid panels with centres (n, 3), d the distance to the nearest of the waterline's points (m, 3).
 
     Examples
     --------
-    >>> lid_damping(np.array([[0.0, 1, 0], [0, 2, 0]]), np.array([[0.0, 3, 0], [0, 4, 0]])).tolist()
-    [1.0, 0.25]
+    >>> lid_damping(np.array([[0.0, 1, 0], [0, 2, 0]]), np.array([[0.0, 3, 0], [0, 4, 0]])).round(6).tolist()
+    [0.3, 0.075]
     """
     from scipy.spatial import cKDTree
 
     if len(lid) == 0:
         return np.zeros(0)
     d, _ = cKDTree(waterline[:, :2]).query(lid[:, :2])
-    return np.asarray((d / d.max()) ** 2)
+    return np.asarray(_DAMPING * (d / d.max()) ** 2)

@@ -79,7 +79,7 @@ def static_force(motion: Complex, moments: Moments, *, rotation: Rotation, rho: 
     force = cross_mean(R, rise_n) + H[..., 2, :] @ M1.T + H @ M1[:, 2]
     moment = cross_mean(T, rise_n) + cross_mean(R, rise_m) + H[..., 2, :] @ N1.T + H @ N1[:, 2]
     moment = moment + _double_cross(outer_mean(T, R), M1[:, 2])
-    return rho * g * np.concatenate([force, moment], axis=-1)
+    return np.asarray(rho * g * np.concatenate([force, moment], axis=-1), dtype=complex)
 
 
 def _double_cross(products: Complex, v: Array) -> Complex:
