@@ -11,7 +11,7 @@ from ogilvie.hydro.drift_panels import WholeHull
 Array = NDArray[np.float64]
 
 #: Gauss points in depth, along the bottom's radius, and from the waterline to the wall.
-N_DEPTH, N_BOTTOM, N_RING = 10, 10, 10
+N_DEPTH, N_BOTTOM, N_RING = 10, 24, 10
 _GAP = 0.25  # distance of the wall from the hull, in radii of the hull
 
 
