@@ -11,8 +11,8 @@ from ogilvie.hydro.drift import mean_drift
 
 TITLE = "Mean drift forces: far field, control surface and pressure integration"
 ABOUT = """A floating hemisphere on the 400 panels of WAMIT's input (WEC-Sim, `Mean_Drift`): all three methods meet WAMIT's far
-field (`.8`), while its own pressure integration (`.9`) is up to two thirds off, because it takes the elevation at panel centres. A
-vertical cylinder held in waves, three radii deep, against the diffraction theory of R. C. MacCamy and R. A. Fuchs (1954) with
+field (`.8`), while its own pressure integration (`.9`) is up to two thirds off, as it takes the elevation at panel centres.
+A vertical cylinder held in waves, three radii deep, against the diffraction theory of R. C. MacCamy and R. A. Fuchs (1954) with
 Maruo's form; the cylinder of the theory has no lower end, which is worth 0.3 % at kR = 1. A box barge of 100 x 20 x 6 m with
 sharp edges: the control surface needs no velocity on the hull and stays with the far field (yaw differs most at the undamped
 resonance of roll), pressure integration does not; its differences are noted, not judged. Energy: what waves and damping carry
