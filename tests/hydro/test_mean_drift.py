@@ -125,6 +125,21 @@ def test_methods_agree_in_shallow_water(sphere):
     np.testing.assert_allclose(near[..., 2], control[..., 2], atol=0.04 * np.abs(control[..., 2]).max())
 
 
+def test_methods_agree_on_a_submerged_sphere():
+    quarter = shapes.hemisphere(1.0, panels=300).with_symmetry("xz+yz")
+    lower, n = quarter.vertices, len(quarter.vertices)
+    vertices = np.concatenate([lower, lower * [1.0, 1.0, -1.0]]) - [0.0, 0.0, 1.4]
+    ball = type(quarter)(vertices, np.concatenate([quarter.faces, quarter.faces[:, ::-1] + n]), symmetry="xz+yz")
+    drift = mean_drift(ball, omega=np.sqrt(G * np.array([0.5, 1.0])), wave_direction=[0.4], **QUIET)
+    near, far, control = (drift[f"mean_drift_{m}"].values / UNIT for m in ("pressure", "momentum", "control_surface"))
+    size = np.abs(near).max()
+    np.testing.assert_allclose(near[..., 2:5], control[..., 2:5], atol=0.02 * size)
+    np.testing.assert_allclose(near[..., :2], far[..., :2], atol=0.01 * size)
+    np.testing.assert_allclose(control[..., :2], far[..., :2], atol=0.01 * size)
+    assert np.all(near[..., 2] > 0.01)  # sucked to the surface
+    assert "heave: control_surface" in drift.mean_drift.attrs["method"]
+
+
 def test_pressure_on_a_sphere_has_no_moment_about_its_centre(free, sphere):
     rolling = afloat(sphere, zg=-0.3)
     drift = mean_drift(sphere, rolling, omega=[np.sqrt(1.1 * G)], wave_direction=[0.4], moments="body", method="near", **QUIET)
@@ -281,6 +296,33 @@ def test_far_field_on_wamits_mesh_is_wamits(shared_data):
             **{**QUIET, "rho": wamit.attrs["rho"], "g": wamit.attrs["g"]},
         )
     np.testing.assert_allclose(own.mean_drift[:, 0, 0], pressure, atol=0.17 * scale)
+
+
+@pytest.mark.slow
+def test_fpso_in_beam_and_head_seas(shared_data):
+    wamit = read_hydro(shared_data / "mss_wamit_fpso/fpso.1")
+    hull = load_mesh(shared_data / "mss_wamit_fpso/fpso_low.gdf")
+    M = wamit.inertia_matrix.values
+    m, cog = M[0, 0], np.array([-M[2, 4], M[2, 3], M[0, 4]]) / M[0, 0]
+    S = np.array([[0.0, -cog[2], cog[1]], [cog[2], 0.0, -cog[0]], [-cog[1], cog[0], 0.0]])
+    i = int(np.abs(2.0 * np.pi / wamit.omega.values - 8.63).argmin())
+    j = [0, 9, 18]
+    drift = mean_drift(
+        hull,
+        RigidBody(m, cog, M[3:, 3:] - m * S.T @ S),
+        omega=wamit.omega.values[[i]],
+        wave_direction=wamit.wave_direction.values[j],
+        rotation="XYZ",
+        **{**QUIET, "rho": wamit.attrs["rho"], "g": wamit.attrs["g"]},
+    )
+    near, far, control = (drift[f"mean_drift_{k}"].values[0] for k in ("pressure", "momentum", "control_surface"))
+    scale = np.abs(far[:, [0, 1]]).max(axis=0)
+    assert np.all(np.abs(control - far)[:, [0, 1]] < 0.02 * scale)
+    assert abs(drift.energy_imbalance).max() < 0.01
+    theirs = wamit.mean_drift_pressure.values[i, j]  # sharp edges: theirs and our near field err to the same side
+    assert far[1, 1] < near[1, 1] < theirs[1, 1] < 1.35 * far[1, 1]
+    motion, X = drift.motion_rao.values[0], wamit.motion_rao.values[i, j]
+    np.testing.assert_allclose(motion[:, :3], X[:, :3], atol=0.02 * np.abs(X[:, :3]).max())
 
 
 # --- cache and refusals

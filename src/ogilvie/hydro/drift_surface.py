@@ -28,7 +28,8 @@ class ControlSurface:
     d_wall, d_floor, d_ring, d_rim : (n,) array
         m2, m2, m2, m.
     ring_is_whole : bool
-        False if the waterline is not a single one seen from all sides; then the ring has no points.
+        False if the waterline is not a single one seen from all sides; then the ring has no points. A submerged hull has the
+        whole disc.
     """
 
     radius: float
@@ -82,7 +83,8 @@ def control_surface(hull: WholeHull, *, k: float, depth: float) -> ControlSurfac
     wall = (R * circle[:, None] + z[None, :, None] * [0.0, 0.0, 1.0]).reshape(-1, 3)
     r, dr = _gauss(N_BOTTOM, 0.0, R)
     floor = (r[None, :, None] * circle[:, None] - [0.0, 0.0, D]).reshape(-1, 3)
-    ring, d_ring = _ring(hull, R)
+    submerged = len(hull.stored_waterline.owner) == 0
+    ring, d_ring = (floor * [1.0, 1.0, 0.0], np.tile(r * dr * d, len(circle))) if submerged else _ring(hull, R)
     return ControlSurface(
         radius=R,
         bottom=D,
@@ -110,8 +112,6 @@ def _ring(hull: WholeHull, R: float) -> tuple[Array, Array]:
     is r dr dtheta. The points crowd towards the waterline.
     """
     line = hull.stored_waterline
-    if len(line.owner) == 0:
-        return np.zeros((0, 3)), np.zeros(0)
     m = line.middle[:, :2]
     size2 = np.einsum("ni,ni->n", m, m)
     turn = line.length * np.einsum("ni,ni->n", m, line.normal[:, :2])  # twice the area of the triangle O p q
