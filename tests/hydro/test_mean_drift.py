@@ -81,7 +81,7 @@ def test_sharp_edges_spoil_the_near_field_alone():
     drift = mean_drift(hull, afloat(hull, zg=0.0, gyradii=(0.7, 2.5, 2.5)), omega=w, wave_direction=b, **QUIET)
     near, far, control = (drift[f"mean_drift_{m}"].values for m in ("pressure", "momentum", "control_surface"))
     size = np.abs(far).max(axis=(0, 1))
-    assert np.all(np.abs(control - far).max(axis=(0, 1))[[0, 1, 5]] < 0.03 * size[[0, 1, 5]])
+    assert np.all(np.abs(control - far).max(axis=(0, 1))[[0, 1, 5]] < size[[0, 1, 5]] * [0.02, 0.01, 0.05])
     assert np.abs(near - far).max(axis=(0, 1))[0] > 0.1 * size[0]
     assert drift.flag_pressure.any()
     assert not drift.flag_control_surface.any()
@@ -305,7 +305,7 @@ def test_fpso_in_beam_and_head_seas(shared_data):
     M = wamit.inertia_matrix.values
     m, cog = M[0, 0], np.array([-M[2, 4], M[2, 3], M[0, 4]]) / M[0, 0]
     S = np.array([[0.0, -cog[2], cog[1]], [cog[2], 0.0, -cog[0]], [-cog[1], cog[0], 0.0]])
-    i = int(np.abs(2.0 * np.pi / wamit.omega.values - 8.63).argmin())
+    i = int(np.abs(2.0 * np.pi / wamit.omega.values - 10.44).argmin())
     j = [0, 9, 18]
     drift = mean_drift(
         hull,
@@ -313,14 +313,16 @@ def test_fpso_in_beam_and_head_seas(shared_data):
         omega=wamit.omega.values[[i]],
         wave_direction=wamit.wave_direction.values[j],
         rotation="XYZ",
+        method="far",
         **{**QUIET, "rho": wamit.attrs["rho"], "g": wamit.attrs["g"]},
     )
-    near, far, control = (drift[f"mean_drift_{k}"].values[0] for k in ("pressure", "momentum", "control_surface"))
-    scale = np.abs(far[:, [0, 1]]).max(axis=0)
-    assert np.all(np.abs(control - far)[:, [0, 1]] < 0.02 * scale)
-    assert abs(drift.energy_imbalance).max() < 0.01
+    near, far = drift.mean_drift_pressure.values[0], drift.mean_drift.values[0]
+    assert abs(drift.energy_imbalance).max() < 0.015
     theirs = wamit.mean_drift_pressure.values[i, j]  # sharp edges: theirs and our near field err to the same side
-    assert far[1, 1] < near[1, 1] < theirs[1, 1] < 1.35 * far[1, 1]
+    assert far[1, 1] < near[1, 1] < theirs[1, 1] < 1.8 * far[1, 1]
+    shift = (drift.mean_drift_pressure - drift.mean_drift_pressure_body).values[0, :, 3:]  # <T x F1>
+    expected = (wamit.mean_drift_pressure - wamit.mean_drift_pressure_body).values[i, j, 3:]
+    np.testing.assert_allclose(shift, expected, atol=0.03 * np.abs(expected).max())
     motion, X = drift.motion_rao.values[0], wamit.motion_rao.values[i, j]
     np.testing.assert_allclose(motion[:, :3], X[:, :3], atol=0.02 * np.abs(X[:, :3]).max())
 
