@@ -209,6 +209,16 @@ def test_pairs_agree_between_the_methods(sphere):
     assert np.isnan(far[..., 2:5]).all()
 
 
+def test_pairs_of_far_field_and_control_surface_agree_on_a_box():
+    hull = shapes.box(10.0, 2.0, 0.6, panels=300, grading=0.7)
+    keys = {"omega": [2.8], "wave_direction": np.radians([20.0, 100.0, 135.0]), "pairs": True, **QUIET}
+    body = afloat(hull, zg=0.0, gyradii=(0.7, 2.5, 2.5))
+    far, control = (mean_drift(hull, body, method=m, **keys).mean_drift_pairs.values for m in ("far", "control_surface"))
+    for dof, part in ((0, 0.015), (1, 0.015), (5, 0.04)):  # imaginary parts are as large as real ones
+        assert np.abs(far[..., dof] - control[..., dof]).max() < part * np.abs(far[..., dof]).max()
+        assert np.abs(far[..., dof].imag).max() > 0.03 * np.abs(far[..., dof]).max()
+
+
 def test_order_of_rotations_changes_vertical_components_alone():
     hull = shapes.box(3.0, 1.0, 0.5, panels=100)
     keys = {"omega": [2.5], "wave_direction": [2.2], "method": "near", **QUIET}
