@@ -35,7 +35,7 @@ def incident(
     points, weights = panels.quadrature
     n = panels.hull.normals
     loads = _loads(points, weights, n)
-    f, df = _profile(points[:, :, 2], k, depth)
+    f, df = profile(points[:, :, 2], k, depth)
     cos, sin = np.cos(direction)[:, None], np.sin(direction)[:, None]
     force = np.zeros((len(direction), 6), dtype=complex)
     velocity = np.empty((len(direction), len(panels.images), panels.n_hull), dtype=complex)
@@ -56,7 +56,7 @@ def _loads(points: Array, weights: Array, n: Array) -> Array:
     return weights[:, :, None] * np.concatenate([normal, np.cross(points, normal)], axis=2)
 
 
-def _profile(z: Array, k: float, depth: float) -> tuple[Array, Array]:
+def profile(z: Array, k: float, depth: float) -> tuple[Array, Array]:
     """Return f = cosh k(z + h)/cosh kh and df/dz, without overflow."""
     if np.isinf(depth):
         f = np.exp(k * z)

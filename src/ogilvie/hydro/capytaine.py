@@ -29,7 +29,9 @@ from ogilvie.hydro.bem_kernel import force_vectors
 from ogilvie.hydro.bem_panels import Facets
 from ogilvie.hydro.bem_result import assemble
 from ogilvie.hydro.bem_store import SolutionStore
+from ogilvie.hydro.bem_table import near_surface
 from ogilvie.hydro.cache import cache_folder, fill_folder
+from ogilvie.hydro.drift_solve import Sources
 from ogilvie.hydro.progress import tracked
 from ogilvie.hydro.threads import available_cores, library_threads
 from ogilvie.mesh.panels import PanelMesh
@@ -147,7 +149,7 @@ def solve_bem(
         raise InputError(f"solve_bem: workers: a number of threads >= 1 or None expected, {workers!r} found.")
     resolved = warn_if_coarse(case)
     vectors = _solutions(
-        case, store=SolutionStore(case, settings=_settings()) if cache else None, progress=progress, workers=workers
+        case, store=SolutionStore(case, settings=green_settings()) if cache else None, progress=progress, workers=workers
     )
     attrs = {"source": f"ogilvie solve_bem, Capytaine {_capytaine_version()}", "omega_resolved": resolved}
     return assemble(case, vectors, body=body, attrs=attrs)
@@ -160,7 +162,7 @@ def _solutions(case: Case, *, store: SolutionStore | None, progress: bool | None
     missing = [k for k in case.wavenumbers if k not in found]
     if missing:
         green = _green_function()
-        with _threads(case, workers or available_cores()):
+        with frequency_threads(case, workers or available_cores()):
             for k in tracked(missing, show=progress, title=f"solving {case.panels.hull.name}"):
                 panels = case.panels_at(k)
                 found[k] = force_vectors(panels, partial(_influence, green, panels.facets, k, case.depth)).conj()
@@ -171,7 +173,8 @@ def _solutions(case: Case, *, store: SolutionStore | None, progress: bool | None
     return found
 
 
-def _threads(case: Case, workers: int) -> AbstractContextManager[None]:
+def frequency_threads(case: Case, workers: int) -> AbstractContextManager[None]:
+    """Return a context in which influence matrices and equations of a case use so many threads."""
     small = case.panels.n_hull + case.panels.n_lid <= SMALL
     return library_threads(
         openmp="capytaine.green_functions.Delhommeau_float64", integrals=workers, algebra=1 if small else workers
@@ -199,6 +202,43 @@ def _influence(green: Any, facets: Facets, k: float, depth: float, mirror: Array
         ) from e
 
 
+def surface_green_function() -> Any:
+    """Return the Green function with a table that is exact near the free surface, for points on it and sources on lids."""
+    green = _green_function()
+    z = np.asarray(green.tabulated_z_range)
+    near = np.flatnonzero(z >= -1.0)
+    table = np.array(green.tabulated_integrals, order="F")
+    table[:, near, 0] = near_surface(np.asarray(green.tabulated_r_range), z[near])
+    green.tabulated_integrals = table
+    return green
+
+
+def source_influence(green: Any, facets: Facets, k: float, depth: float) -> Sources:
+    """Return the influence of sources on all panels, and its gradient, in the convention exp(+i omega t)."""
+
+    def influence(points: Array, mirror: Array) -> tuple[Complex, Complex]:
+        from capytaine.green_functions.abstract_green_function import GreenFunctionEvaluationError
+
+        try:
+            S, G = green.evaluate(
+                points * mirror,
+                _sources(facets),
+                wavenumber=k,
+                water_depth=depth,
+                adjoint_double_layer=True,
+                early_dot_product=False,
+                diagonal_term_in_double_layer=False,
+            )
+        except (GreenFunctionEvaluationError, NotImplementedError) as e:
+            raise ConvergenceError(
+                f"mean_drift: the Green function cannot be evaluated at k = {k:.6g} rad/m in {depth:.6g} m of water ({e}). "
+                "Leave this frequency out."
+            ) from e
+        return S.conj(), G.conj()
+
+    return influence
+
+
 def _sources(facets: Facets) -> Any:
     """Return the panels under the names that Capytaine's Green functions read from a mesh."""
     return SimpleNamespace(
@@ -213,7 +253,8 @@ def _sources(facets: Facets) -> Any:
     )
 
 
-def _settings() -> str:
+def green_settings() -> str:
+    """Return what solutions depend on besides the problem: revision, version, table of the Green function."""
     return f"revision {REVISION}; capytaine {_capytaine_version()}; {sorted(_TABLE.items())}"
 
 

@@ -1,0 +1,237 @@
+"""Mean drift forces from the panel solution, by three methods side by side."""
+
+import warnings
+from typing import Literal, get_args
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+
+from ogilvie.body import RigidBody
+from ogilvie.errors import InputError, OgilvieWarning
+from ogilvie.hydro.bem_case import Case, Irregular, make_case, warn_if_coarse
+from ogilvie.hydro.drift_first import Dynamics, WaterlineRule
+from ogilvie.hydro.drift_result import Method, as_dataset
+from ogilvie.hydro.drift_run import Options, drifts
+from ogilvie.hydro.drift_static import Rotation
+from ogilvie.hydro.threads import available_cores
+from ogilvie.mesh.hydrostatics import hydrostatics
+from ogilvie.mesh.panels import PanelMesh
+from ogilvie.units import GRAVITY, SEA_WATER
+
+Array = NDArray[np.float64]
+Moments = Literal["space", "body"]
+
+_AFLOAT = 0.015  # part of the displacement by which a free body's weight may differ from its buoyancy
+_UPRIGHT = 0.005  # part of length and beam by which the centre of gravity may be off that of buoyancy
+
+
+def mean_drift(
+    hull: PanelMesh,
+    body: RigidBody | None = None,
+    *,
+    omega: ArrayLike,
+    wave_direction: ArrayLike = (np.pi,),
+    rho: float = SEA_WATER,
+    g: float = GRAVITY,
+    water_depth: float = np.inf,
+    speed: float = 0.0,
+    damping: ArrayLike | None = None,
+    stiffness: ArrayLike | None = None,
+    method: Method = "auto",
+    rotation: Rotation = "ZYX",
+    moments: Moments = "space",
+    waterline: WaterlineRule = "edge",
+    pairs: bool = False,
+    irregular_frequencies: Irregular = "remove",
+    progress: bool | None = None,
+    cache: bool = True,
+    workers: int | None = None,
+) -> xr.Dataset:
+    """Return the mean second-order wave forces on a hull, per square metre of wave amplitude.
+
+    Parameters
+    ----------
+    hull : PanelMesh
+        Wetted hull (z <= 0, normals into the fluid); its symmetry and its own `lid` are used.
+    body : RigidBody, optional
+        Floats freely; without it the hull is held fixed.
+    omega : (n_w,) array
+        Frequencies, rad/s.
+    wave_direction : (n_b,) array
+        Directions that the waves travel to, rad; pi is head seas.
+    rho, g, water_depth : float
+        kg/m3, m/s2, m (inf for deep water).
+    speed : float
+        Zero: forward speed is refused.
+    damping, stiffness : (6, 6) array, optional
+        About O: external damping (viscous roll damping) and stiffness (mooring), added to those of water and gravity.
+    method : {"auto", "near", "far", "control_surface"}
+        What ``mean_drift`` is taken from. "auto": surge, sway, yaw from the far field, heave, roll, pitch from the control
+        surface (or, around several waterlines, the near field). "near" and "far" leave the control surface out, which nearly
+        halves the work.
+    rotation : {"ZYX", "XYZ"}
+        Order of the rotations: Rz Ry Rx (this package) or Rx Ry Rz (WAMIT); heave, roll and pitch differ.
+    moments : {"space", "body"}
+        About the fixed mean origin, or about the origin that moves with the body (WAMIT's negative modes).
+    waterline : {"edge", "centre"}
+        Potential at the edges of the waterline, or at the centres of its panels, as in low-order codes.
+    pairs : bool
+        Add ``mean_drift_pairs`` for two waves of one frequency from different directions.
+    irregular_frequencies, progress, cache, workers
+        As in :func:`ogilvie.solve_bem`.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dims omega, wave_direction, influenced_dof; N/m2 and N m/m2.
+
+        * mean_drift; mean_drift_pressure (near field, about the fixed origin), mean_drift_pressure_body (about the moving
+          one), mean_drift_control_surface, mean_drift_momentum (far field, NaN in heave, roll, pitch); mean_drift_pairs
+        * pressure_terms, control_surface_terms: the terms (term first) that these are sums of, about the fixed origin
+        * energy_imbalance: wave energy radiated, scattered and damped less that taken from the incident wave, as a part of it
+        * difference_pressure, difference_control_surface: distance from the far field, as a part of the largest value over all
+          directions at that frequency
+        * flag_energy (imbalance above 2 %), flag_pressure, flag_control_surface (difference above 10 %)
+        * motion_rao: the motions
+
+        ``hydro.assign(mean_drift=drift.mean_drift)`` puts it into a data set of the same frequencies and directions. The
+        attribute `summary` tells in words how good it is.
+
+    Raises
+    ------
+    InputError
+        An argument is out of range, or the hull cannot be solved.
+    ConvergenceError
+        The Green function cannot be evaluated.
+
+    Warns
+    -----
+    OgilvieWarning
+        Energy out of balance by over 2 %, or the method asked for over 10 % off the far field; a body that does not float;
+        frequencies above those that the panels resolve.
+
+    Notes
+    -----
+    Forces of the water on the body: weight, mooring and viscous forces are not among them. Formulas, derivations and what was
+    measured: docs/theory/drift.md. Near field: :mod:`ogilvie.hydro.drift_near`; far field: :mod:`ogilvie.hydro.drift_far`;
+    control surface: :mod:`ogilvie.hydro.drift_control`.
+
+    At sharp edges the velocity is infinite and its square near the edge is badly resolved by panels: there the near field is
+    for comparison only, while the other two need no velocity on the hull.
+
+    References
+    ----------
+    H. Maruo, The drift of a body floating on waves, J. Ship Research 4 (1960); J. N. Newman, The drift force and moment on
+    ships in waves, J. Ship Research 11 (1967); J. A. Pinkster, Low frequency second order wave exciting forces on floating
+    structures, Delft (1980); X.-B. Chen, Middle-field formulation for the computation of wave-drift loads, J. Eng. Math. 59
+    (2007) 61-82.
+
+    Examples
+    --------
+    >>> from ogilvie.mesh.shapes import hemisphere
+    >>> drift = mean_drift(hemisphere(1.0, panels=100), omega=[4.0], rho=1000.0, cache=False, workers=1)
+    >>> drift.mean_drift.sizes["influenced_dof"], bool(drift.mean_drift.sel(influenced_dof="surge") < 0)  # pushed astern
+    (6, True)
+    """
+    case = _case(hull, speed, irregular_frequencies, omega=omega, direction=wave_direction, rho=rho, g=g, depth=water_depth)
+    for name, value, allowed in (
+        ("method", method, Method),
+        ("rotation", rotation, Rotation),
+        ("moments", moments, Moments),
+        ("waterline", waterline, WaterlineRule),
+    ):
+        if value not in get_args(allowed):
+            raise InputError(f"mean_drift: {name}: one of {', '.join(get_args(allowed))} expected, {value!r} found.")
+    if workers is not None and (isinstance(workers, bool) or not isinstance(workers, int) or workers < 1):
+        raise InputError(f"mean_drift: workers: a number of threads >= 1 or None expected, {workers!r} found.")
+    options = Options(
+        rotation=rotation,
+        waterline=waterline,
+        control=method in ("auto", "control_surface"),
+        cache=cache,
+        workers=workers or available_cores(),
+        progress=progress,
+    )
+    found = drifts(case, _dynamics(case, body, damping, stiffness), options)
+    result = as_dataset(case, found, method=method, moments=moments, pairs=pairs)
+    result = result.assign_attrs(rotation=rotation, waterline=waterline, body="fixed" if body is None else body.name)
+    _warn_of_flags(result, method)
+    return result
+
+
+def _case(
+    hull: PanelMesh,
+    speed: float,
+    irregular: Irregular,
+    *,
+    omega: ArrayLike,
+    direction: ArrayLike,
+    rho: float,
+    g: float,
+    depth: float,
+) -> Case:
+    if speed != 0.0:
+        raise InputError(
+            f"mean_drift: speed: 0 expected, {speed!r} m/s found. Added resistance at speed is not part of this method; give "
+            "measured or empirical values in a force table."
+        )
+    if not isinstance(hull, PanelMesh):
+        raise InputError(f"mean_drift: hull: a PanelMesh expected, {type(hull).__name__} found. Read one with load_mesh.")
+    try:
+        case = make_case(
+            hull,
+            omega=omega,
+            wave_direction=direction,
+            rho=rho,
+            g=g,
+            water_depth=depth,
+            speed=0.0,
+            irregular_frequencies=irregular,
+        )
+    except InputError as e:
+        raise InputError(str(e).replace("solve_bem", "mean_drift")) from None
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        warn_if_coarse(case)
+    for warning in caught:
+        warnings.warn(str(warning.message).replace("solve_bem", "mean_drift"), OgilvieWarning, stacklevel=3)
+    return case
+
+
+def _dynamics(case: Case, body: RigidBody | None, damping: ArrayLike | None, stiffness: ArrayLike | None) -> Dynamics | None:
+    external = [_matrix(damping, "damping"), _matrix(stiffness, "stiffness")]
+    if body is None:
+        if damping is not None or stiffness is not None:
+            raise InputError("mean_drift: damping and stiffness act on a body that moves: body expected, none found.")
+        return None
+    if not isinstance(body, RigidBody):
+        raise InputError(f"mean_drift: body: a RigidBody or None (fixed) expected, {type(body).__name__} found.")
+    water = hydrostatics(case.panels.hull, body=body, rho=case.rho, g=case.g)
+    excess = body.mass / (case.rho * water.volume) - 1.0
+    offset = np.abs(body.cog - water.center_of_buoyancy)[:2] / [case.panels.hull.length, case.panels.hull.beam]
+    if abs(excess) > _AFLOAT or np.any(offset > _UPRIGHT):
+        arm = (body.cog - water.center_of_buoyancy)[:2].round(3).tolist()
+        warnings.warn(
+            f"mean_drift: a body that floats at rest expected; its mass is {100 * excess:+.1f} % off the displacement, its "
+            f"centre of gravity {arm} m (x, y) off that of buoyancy. Energy is not conserved then. Use RigidBody.from_hull, "
+            "or another draught and trim.",
+            OgilvieWarning,
+            stacklevel=3,
+        )
+    return Dynamics(body.matrix, water.stiffness, *external)
+
+
+def _matrix(value: ArrayLike | None, name: str) -> Array:
+    if value is None:
+        return np.zeros((6, 6))
+    M = np.asarray(value, dtype=float)
+    if M.shape != (6, 6) or not np.all(np.isfinite(M)):
+        raise InputError(f"mean_drift: {name}: a finite (6, 6) matrix about O expected, shape {M.shape} found.")
+    return M
+
+
+def _warn_of_flags(result: xr.Dataset, method: Method) -> None:
+    compared = {"near": "flag_pressure", "far": "flag_energy"}.get(method, "flag_control_surface")
+    if bool(result.flag_energy.any()) or bool(result[compared].any()):
+        warnings.warn(f"mean_drift: {result.attrs['summary']}", OgilvieWarning, stacklevel=3)

@@ -1,0 +1,146 @@
+"""The mean drift as a data set, with what tells how far to trust it."""
+
+from collections.abc import Sequence
+from typing import Literal
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ogilvie.hydro.bem_case import Case
+from ogilvie.hydro.drift_run import Drift, pairs_of
+from ogilvie.hydro.schema import DOFS
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+Method = Literal["auto", "near", "far", "control_surface"]
+
+#: Beyond these energy and methods are flagged.
+ENERGY_LIMIT, METHOD_LIMIT = 0.02, 0.10
+_HORIZONTAL = [0, 1, 5]
+_SMALL = 0.1  # of a dof's largest value at all frequencies: less than this is measured against this
+_PART = 0.05  # of the largest horizontal force at that frequency (in yaw times the length): the same
+_LITTLE_PUSH = 0.01  # of the momentum of the incident waves over the hull's breadth (in yaw times the length): the same
+_LITTLE_POWER = 0.05  # of the incident power over the hull's breadth: the same for energy
+_DIMS = ("omega", "wave_direction", "influenced_dof")
+_WORDS = {"pressure": "near field", "control_surface": "control surface", "momentum": "far field"}
+
+
+def as_dataset(case: Case, found: Sequence[Drift], *, method: Method, moments: str, pairs: bool) -> xr.Dataset:
+    """Return the data set of :func:`ogilvie.hydro.drift.mean_drift`."""
+    full = {name: np.array([dict(pairs_of(d))[name] for d in found]) for name, _ in pairs_of(found[0])}
+    shift = np.zeros_like(full["pressure"])
+    shift[..., 3:] = [d.shift for d in found]
+    best, chosen = _best(full, method)
+    if moments == "body":
+        best = best - shift
+    taken = ", ".join(f"{dof}: {name}" for dof, name in zip(DOFS, chosen, strict=True))
+    variables = {
+        "mean_drift": (_DIMS, _alone(best), {"method": taken}),
+    }
+    variables |= {f"mean_drift_{name}": (_DIMS, _alone(value), {}) for name, value in full.items()}
+    variables["mean_drift_pressure_body"] = (_DIMS, _alone(full["pressure"] - shift), {})
+    result = xr.Dataset(variables, coords={"omega": case.omega, "wave_direction": case.direction, "influenced_dof": list(DOFS)})
+    result["motion_rao"] = (_DIMS, np.array([d.motion for d in found]))
+    for name, terms in (("pressure", [d.near for d in found]), ("control_surface", [d.control for d in found])):
+        if terms[0]:
+            keys = list(terms[0])
+            stacked = np.array([[_alone(t[key][None])[0] for t in terms] for key in keys])
+            part = xr.DataArray(stacked, dims=(f"{name}_term", *_DIMS), coords={f"{name}_term": keys})
+            result[f"{name}_terms"] = part
+    if pairs:
+        result = result.merge(_pairs(best, case.direction))
+    result = result.merge(_quality(full, found))
+    result.attrs = {
+        "rho": case.rho,
+        "g": case.g,
+        "water_depth": case.depth,
+        "speed": 0.0,
+        "moments": moments,
+        "name": case.panels.hull.name,
+        "time_convention": "exp(+iwt)",
+        "units": "N/m2, N m/m2 per square metre of wave amplitude",
+    }
+    return result.assign_attrs(summary=_summary(result))
+
+
+def _best(full: dict[str, Complex], method: Method) -> tuple[Complex, list[str]]:
+    """Return the force (n_w, n_b, n_b, 6) of the chosen method of each dof, and its name."""
+    order = {
+        "near": ("pressure",),
+        "far": ("momentum",),
+        "control_surface": ("control_surface",),
+        "auto": ("momentum", "control_surface", "pressure"),
+    }[method]
+    best = np.full_like(full["pressure"], np.nan)
+    chosen = []
+    for i in range(6):
+        usable = [name for name in order if name in full and np.all(np.isfinite(full[name][..., i]))]
+        if usable:
+            best[..., i] = full[usable[0]][..., i]
+        chosen.append(usable[0] if usable else "none")
+    return best, chosen
+
+
+def _alone(values: Complex) -> Array:
+    """Return the mean in waves of one direction (n_w, n_b, 6) of values (n_w, n_b, n_b, 6)."""
+    return np.real(np.einsum("wbbi->wbi", values))
+
+
+def _pairs(best: Complex, directions: Array) -> xr.Dataset:
+    n = len(directions)
+    one, two = np.repeat(directions, n), np.tile(directions, n)
+    values = best.reshape(len(best), n * n, 6)
+    coords = {"drift_direction_1": ("drift_pair", one), "drift_direction_2": ("drift_pair", two)}
+    return xr.Dataset({"mean_drift_pairs": (("omega", "drift_pair", "influenced_dof"), values)}, coords=coords)
+
+
+def _quality(full: dict[str, Complex], found: Sequence[Drift]) -> xr.Dataset:
+    radiated, removed = np.array([d.far.radiated for d in found]), np.array([d.far.removed for d in found])
+    scale = np.maximum(np.maximum(np.abs(radiated), np.abs(removed)), _LITTLE_POWER * np.array([d.flux for d in found]))
+    imbalance = (radiated - removed) / scale
+    two = _DIMS[:2]
+    out: dict[str, tuple] = {"energy_imbalance": (two, imbalance), "flag_energy": (two, np.abs(imbalance) > ENERGY_LIMIT)}
+    far = _alone(full["momentum"])
+    push = np.array([d.flux.max() * d.slowness for d in found])
+    scale_of = _scales(far, push, found[0].length)
+    for name in ("pressure", "control_surface"):
+        if name in full:
+            difference = np.abs(_alone(full[name]) - far) / scale_of
+            out[f"difference_{name}"] = (_DIMS, difference)
+            out[f"flag_{name}"] = (two, (difference[..., _HORIZONTAL] > METHOD_LIMIT).any(axis=-1))
+    return xr.Dataset(out)
+
+
+def _scales(far: Array, push: Array, length: float) -> Array:
+    """Return what differences are parts of (n_w, 1, 6).
+
+    The largest value over all directions at that frequency, yet no less than parts of the largest at all frequencies, of the
+    largest horizontal force, and of the momentum of the incident waves, `push` (n_w,), N/m2.
+    """
+    size = np.abs(far).max(axis=1, keepdims=True)
+    force = size[..., :2].max(axis=-1, keepdims=True)
+    size = np.maximum(size, _SMALL * size.max(axis=0, keepdims=True))
+    least = np.maximum(_PART * force, _LITTLE_PUSH * push[:, None, None])
+    size[..., :2] = np.maximum(size[..., :2], least)
+    size[..., 5:] = np.maximum(size[..., 5:], length * least)
+    return size
+
+
+def _summary(result: xr.Dataset) -> str:
+    worst = float(np.abs(result.energy_imbalance).max())
+    flagged = int(result.flag_energy.sum())
+    lines = [
+        f"mean drift of {result.attrs['name']}: {result.sizes['omega']} frequencies, "
+        f"{result.sizes['wave_direction']} directions",
+        f"taken from: {result.mean_drift.attrs['method']}",
+        f"energy out of balance by up to {100 * worst:.2g} % ({flagged} of {result.flag_energy.size} points above "
+        f"{100 * ENERGY_LIMIT:.0f} %)",
+    ]
+    for name in ("pressure", "control_surface"):
+        if f"flag_{name}" in result:
+            d = result[f"difference_{name}"]
+            parts = ", ".join(f"{DOFS[i]} {100 * float(d[..., i].max()):.2g} %" for i in _HORIZONTAL)
+            flags = int(result[f"flag_{name}"].sum())
+            lines.append(f"{_WORDS[name]} against far field: {parts} at most ({flags} points above {100 * METHOD_LIMIT:.0f} %)")
+    return "\n".join(lines)

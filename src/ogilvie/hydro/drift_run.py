@@ -1,0 +1,186 @@
+"""Frequencies one after the other: from the panels to the terms of the mean drift by every method."""
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ogilvie.errors import InputError
+from ogilvie.hydro.bem_case import Case
+from ogilvie.hydro.capytaine import frequency_threads, green_settings, source_influence, surface_green_function
+from ogilvie.hydro.drift_control import control_drift
+from ogilvie.hydro.drift_far import FarField, far_field
+from ogilvie.hydro.drift_first import Dynamics, FirstOrder, WaterlineRule, Wave
+from ogilvie.hydro.drift_forms import cross_mean
+from ogilvie.hydro.drift_near import near_field
+from ogilvie.hydro.drift_panels import WholeHull
+from ogilvie.hydro.drift_slope import find_slopes
+from ogilvie.hydro.drift_solve import Corrections, Fields, fields_at, flux_correction, lid_damping, solve_sources
+from ogilvie.hydro.drift_static import Rotation
+from ogilvie.hydro.drift_store import FieldStore, joined, split
+from ogilvie.hydro.drift_surface import ControlSurface, control_surface
+from ogilvie.hydro.progress import tracked
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+#: Raised whenever the same problem would give other fields than before.
+REVISION = 1
+
+
+@dataclass(frozen=True)
+class Options:
+    """How the drift is evaluated; see :func:`ogilvie.hydro.drift.mean_drift`."""
+
+    rotation: Rotation
+    waterline: WaterlineRule
+    control: bool
+    cache: bool
+    workers: int
+    progress: bool | None
+
+
+@dataclass(frozen=True, eq=False)
+class Drift:
+    """The drift of one frequency for every pair of directions, about the fixed mean origin.
+
+    Parameters
+    ----------
+    near, control : dict of (n_b, n_b, 6) arrays
+        Terms; `control` is empty if it was not asked for.
+    far : FarField
+    shift : (n_b, n_b, 3) array
+        <T x F1>: what the moment about the fixed origin has more than that about the moving one.
+    motion : (n_b, 6) array
+    flux : (n_b,) array
+        Power of the incident waves over the breadth of the hull across them, W/m2.
+    slowness : float
+        k/omega, s/m: momentum over energy of the waves.
+    length : float
+        Of the hull, m.
+    """
+
+    near: dict[str, Complex]
+    control: dict[str, Complex]
+    far: FarField
+    shift: Complex
+    motion: Complex
+    flux: Array
+    slowness: float
+    length: float
+
+
+def drifts(case: Case, dynamics: Dynamics | None, options: Options) -> list[Drift]:
+    """Return the drift at every frequency of a case."""
+    _refuse_too_large(case)
+    hull, store = WholeHull(case.panels), None
+    if options.cache:
+        store = FieldStore(case.panels, case.depth, settings=f"drift {REVISION}; {green_settings()}")
+    solver = _Solver(case, hull, store, options.workers)
+    slopes = find_slopes(hull)
+    out = []
+    for i in tracked(range(len(case.omega)), show=options.progress, title=f"drift of {case.panels.hull.name}"):
+        wave = Wave(float(case.omega[i]), float(case.k[i]), case.direction, case.depth, case.rho, case.g)
+        first = FirstOrder(wave, hull, slopes, solver.at_hull(wave), dynamics)
+        terms: dict[str, Complex] = {}
+        if options.control:
+            surface = control_surface(hull, k=wave.k, depth=wave.depth)
+            fields = solver.at_surface(wave, surface, first.fields)
+            terms = control_drift(first, surface, fields, rotation=options.rotation, waterline=options.waterline)
+        near = near_field(first, rotation=options.rotation, waterline=options.waterline)
+        shift = cross_mean(first.motion[:, :3], first.pressure_force)
+        out.append(
+            Drift(
+                near, terms, far_field(first), shift, first.motion, _flux(first), wave.k / wave.omega, case.panels.hull.length
+            )
+        )
+    if store:
+        store.finish()
+    return out
+
+
+class _Solver:
+    """Solves what the store does not have; the Green function and the corrections are made when first needed."""
+
+    def __init__(self, case: Case, hull: WholeHull, store: FieldStore | None, workers: int) -> None:
+        self._case, self._hull, self._store, self._workers = case, hull, store, workers
+        self._ready: tuple | None = None
+
+    def at_hull(self, wave: Wave) -> Fields:
+        kept = self._load(wave, "hull")
+        missing = [i for i, field in enumerate(kept) if field is None]
+        if missing:
+            green, corrections = self._tools()
+            panels, b = self._case.panels, np.array([wave.directions[i - 1] for i in missing if i > 0])
+            sources = source_influence(green, panels.facets, wave.k, wave.depth)
+            with frequency_threads(self._case, self._workers):
+                new = solve_sources(
+                    panels, sources, corrections=corrections, k=wave.k, K=wave.K, directions=b, depth=wave.depth
+                )
+            parts = iter(split(new))
+            kept[0] = next(parts)
+            for i, part in zip([i for i in missing if i > 0], parts, strict=True):
+                kept[i] = part
+            self._save(wave, kept, "hull")
+        return joined([field for field in kept if field is not None])
+
+    def at_surface(self, wave: Wave, surface: ControlSurface, hull_fields: Fields) -> Fields:
+        kept = self._load(wave, "control")
+        if any(field is None or field.potential.shape[2] != len(surface.points) for field in kept):
+            green, _ = self._tools()
+            panels = self._case.panels
+            sources = source_influence(green, panels.facets, wave.k, wave.depth)
+            with frequency_threads(self._case, self._workers):
+                found = fields_at(panels, sources, hull_fields.sources, surface.points)
+            kept = list(split(Fields(np.zeros((len(found.potential), 0), dtype=complex), found.potential, found.velocity)))
+            self._save(wave, kept, "control")
+        return joined([field for field in kept if field is not None])
+
+    def _tools(self) -> tuple:
+        if self._ready is None:
+            green, panels = surface_green_function(), self._case.panels
+            bare = panels.without_lid
+            lid = np.zeros((0, 3)) if panels.lid is None else panels.lid.centers
+            curvature = flux_correction(bare, source_influence(green, bare.facets, 0.0, np.inf))
+            damping = lid_damping(lid, self._hull.waterline.middle)
+            self._ready = green, Corrections(curvature, damping)
+        return self._ready
+
+    def _load(self, wave: Wave, where: str) -> list[Fields | None]:
+        if self._store is None:
+            return [None] * (1 + len(wave.directions))
+        return self._store.load(wave.k, wave.directions, where=where)
+
+    def _save(self, wave: Wave, fields: list[Fields | None], where: str) -> None:
+        if self._store is not None:
+            self._store.save(wave.k, wave.directions, [field for field in fields if field is not None], where=where)
+
+
+def _flux(first: FirstOrder) -> Array:
+    w = first.wave
+    across = first.hull.centers[:, :2] @ np.stack([-np.sin(w.directions), np.cos(w.directions)])
+    return np.asarray(0.5 * w.rho * w.g * w.ratio * w.omega / w.k * np.ptp(across, axis=0))
+
+
+def pairs_of(drift: Drift) -> Iterator[tuple[str, Complex]]:
+    """Yield name and sum (n_b, n_b, 6) of each method."""
+    yield "pressure", np.sum(list(drift.near.values()), axis=0)
+    if drift.control:
+        yield "control_surface", np.sum(list(drift.control.values()), axis=0)
+    yield "momentum", drift.far.force
+
+
+def _refuse_too_large(case: Case) -> None:
+    n, copies = case.panels.n_hull + case.panels.n_lid, len(case.panels.images)
+    needed = 16.0 * n**2 * (4.0 * (copies + 2) + 2.0)
+    try:
+        memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    except (AttributeError, ValueError, OSError):
+        return
+    if needed > memory:
+        raise InputError(
+            f"mean_drift: a mesh that fits into {memory / 1e9:.3g} GB of memory expected, {n} stored panels found, which need "
+            f"{needed / 1e9:.3g} GB. Use a coarser mesh, or store the hull with its symmetry: hull.with_symmetry('xz')."
+        )
