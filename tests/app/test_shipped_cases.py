@@ -82,7 +82,7 @@ def test_the_container_ship_sails(tmp_path):
     assert course.speed == pytest.approx(18.0 * 1852 / 3600, rel=0.05)
     assert abs(course.heading) < np.radians(6.0)
     assert 0.0 < np.degrees(course.drift_angle) < 15.0  # wind, waves and current come from starboard
-    assert float(np.abs(run["autopilot_rudder angle"]).max()) > 0.0
+    assert float(np.abs(run.autopilot_rudder_angle).max()) > 0.0
     assert "about the mean course" in out
     assert re.search(r"speed over ground +1[789](\.\d)? kn", out)
     names = {name.removesuffix(".png") for name in os.listdir(folder / "figures")}

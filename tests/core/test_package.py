@@ -39,4 +39,5 @@ def test_only_files_are_replaced(tmp_path, what):
     target.mkdir() if what == "folder" else os.mkfifo(target)
     with pytest.raises(og.InputError, match="the place of a file expected"):
         write_whole(target, lambda path: path.write_text("x"))
-    assert target.exists() and not target.is_file()
+    assert target.exists()
+    assert not target.is_file()

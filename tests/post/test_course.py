@@ -16,7 +16,9 @@ T = np.arange(0.0, 400.0, 0.5)
 def made(eta, *, motions="large", **signals) -> xr.Dataset:
     dims = ("realisation", "time", "dof") if eta.ndim == 3 else ("time", "dof")
     data = {"eta": (dims, eta), "nu": (dims, np.zeros_like(eta))}
-    data |= {key: ("time", values, {"units": unit}) for key, (values, unit) in signals.items()}
+    for owner_and_name, (values, unit) in signals.items():
+        owner, name = owner_and_name.split(": ")
+        data[f"{owner}_{name}".replace(" ", "_")] = ("time", values, {"units": unit, "signal": name})
     return xr.Dataset(data, {"time": T, "dof": DOFS}, {"motions": motions, "speed": 8.0})
 
 
@@ -83,7 +85,7 @@ def test_small_motions_stay_as_they_are():
 
 
 def test_course_in_words():
-    rows = dict(course_rows(made(sailing()[0], **{"autopilot_rudder angle": (0.1 * np.ones_like(T), "rad")})))
+    rows = dict(course_rows(made(sailing()[0], **{"autopilot: rudder angle": (0.1 * np.ones_like(T), "rad")})))
     assert 15.0 < float(rows["speed over ground"].removesuffix(" kn")) < 16.0
     assert rows["mean heading"] == "28.6 deg"
     assert rows["rudder angle"] == "mean 5.73, std 0, largest 5.73 deg"
@@ -103,12 +105,12 @@ def test_the_track_of_a_ship_that_sails_and_of_one_that_stays():
 
 def test_controls_show_what_was_recorded():
     signals = {
-        "autopilot_heading reference": (np.full_like(T, 0.5), "rad"),
-        "autopilot_rudder angle": (np.full_like(T, 0.1), "rad"),
-        "speed keeping_speed reference": (np.full_like(T, 8.0), "m/s"),
-        "speed keeping_thrust": (np.full_like(T, 5e5), "N"),
-        "positioning_thrust of aft forward": (np.full_like(T, 3e3), "N"),
-        "positioning_thrust of aft to port": (np.full_like(T, 4e3), "N"),
+        "autopilot: heading reference": (np.full_like(T, 0.5), "rad"),
+        "autopilot: rudder angle": (np.full_like(T, 0.1), "rad"),
+        "speed_keeping: speed reference": (np.full_like(T, 8.0), "m/s"),
+        "speed_keeping: thrust": (np.full_like(T, 5e5), "N"),
+        "positioning: thrust of aft forward": (np.full_like(T, 3e3), "N"),
+        "positioning: thrust of aft to port": (np.full_like(T, 4e3), "N"),
     }
     axes = plot.controls(made(sailing()[0], **signals)).axes
     titles = ["heading", "speed ahead", "rudder angle, positive turns to port", "thrust"]

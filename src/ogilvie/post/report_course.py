@@ -12,7 +12,7 @@ from ogilvie.units import knot
 if TYPE_CHECKING:
     import xarray as xr
 
-#: Signals of control laws that a reader wants in figures: end of the variable's name, title, factor, unit.
+#: Signals of control laws that a reader wants in figures: name, title, factor, unit.
 _SIGNALS = (
     ("rudder angle", "rudder angle", 180.0 / np.pi, "deg"),
     ("speed measured", "speed measured by the control", 1.0 / knot, "kn"),
@@ -55,23 +55,21 @@ def course_table(run: "xr.Dataset", *, skip: float = 0.0) -> list[Table]:
 def _signals(run: "xr.Dataset", skip: float) -> list[tuple[str, str]]:
     rows = []
     for key in map(str, run.data_vars):
-        for ending, title, factor, unit in _SIGNALS:
-            if key.partition("_")[2] == ending:
-                x = run[key].values[..., run.time.values >= float(run.time[0]) + skip] * factor
-                largest = float(np.abs(x).max())
-                mean, std = (number(float(v) if abs(v) > 1e-9 * largest else 0.0, 3) for v in (x.mean(), x.std()))
+        name = str(run[key].attrs.get("signal", ""))
+        x = run[key].values[..., run.time.values >= float(run.time[0]) + skip] if name else np.zeros(0)
+        for wanted, title, factor, unit in _SIGNALS:
+            if name == wanted:
+                largest = float(np.abs(x * factor).max())
+                mean, std = (
+                    number(float(v) if abs(v) > 1e-9 * largest else 0.0, 3) for v in (x.mean() * factor, x.std() * factor)
+                )
                 rows.append((title, f"mean {mean}, std {std}, largest {number(largest, 3)} {unit}"))
-        if "_thrust of " in key and not key.endswith((" forward", " to port")):
-            x = run[key].values[..., run.time.values >= float(run.time[0]) + skip]
-            name = key.split("_thrust of ")[1]
-            rows.append(
-                (f"thrust of {name}", f"mean {number(x.mean() / 1e3, 3)}, largest {number(np.abs(x).max() / 1e3, 3)} kN")
-            )
-        if "_thrust of " in key and key.endswith(" forward"):
-            other = run[key.removesuffix(" forward") + " to port"].values
-            x = np.hypot(run[key].values, other)[..., run.time.values >= float(run.time[0]) + skip]
-            name = key.split("_thrust of ")[1].removesuffix(" forward")
-            rows.append((f"thrust of {name}", f"mean {number(x.mean() / 1e3, 3)}, largest {number(x.max() / 1e3, 3)} kN"))
+        if name.startswith("thrust of ") and not name.endswith(" to port"):
+            if name.endswith(" forward"):
+                port = key.removesuffix("_forward") + "_to_port"
+                x = np.hypot(x, run[port].values[..., run.time.values >= float(run.time[0]) + skip])
+            mean, most = number(x.mean() / 1e3, 3), number(np.abs(x).max() / 1e3, 3)
+            rows.append((name.removesuffix(" forward"), f"mean {mean}, largest {most} kN"))
     return rows
 
 

@@ -92,12 +92,13 @@ class Engine:
         return np.concatenate([series, *second], axis=1)
 
     @cached_property
-    def signals(self) -> tuple[tuple[str, str], ...]:
-        """Name and unit of what the control laws let record."""
+    def signals(self) -> tuple[tuple[str, str, str], ...]:
+        """Variable, name and unit of what the control laws let record."""
         if not isinstance(self.scheme, LargeMotions):
             return ()
         laws = zip(self.scheme.laws.names, self.scheme.laws.kernels, strict=True)
-        return tuple((f"{owner}_{name}".replace(" ", "_"), unit) for owner, law in laws for name, unit, _ in law.signals)
+        named = [(owner, name, unit) for owner, law in laws for name, unit, _ in law.signals]
+        return tuple((f"{owner}_{name}".replace(" ", "_"), name, unit) for owner, name, unit in named)
 
     def load_forces(self) -> Sequence[LoadForce | LargeLoadForce]:
         """Return what evaluates the force of each load from the recorded motion."""

@@ -37,7 +37,7 @@ def to_dataset(
     batched: bool,
     seeds: Sequence[int],
     large: bool = False,
-    signals: Mapping[str, str] | None = None,
+    signals: Sequence[tuple[str, str, str]] = (),
 ) -> xr.Dataset:
     """Return the result of a run.
 
@@ -53,8 +53,8 @@ def to_dataset(
         Of the realisations, if known.
     large : bool
         Whether motions are poses in the world.
-    signals : mapping of str to str, optional
-        Units of the signals among the series.
+    signals : sequence of (variable, name, unit)
+        Of control laws, among the series; the variable's attribute ``signal`` holds the name.
     """
     coords: dict[str, Any] = {"time": ("time", time, {"units": "s"}), "dof": list(DOFS)}
     number = len(next(iter(series.values()))) if series else 0
@@ -65,12 +65,16 @@ def to_dataset(
     dims = ("realisation", "time", "dof") if batched else ("time", "dof")
     data = {}
     about = _ABOUT_LARGE if large else _ABOUT
-    named = {key: (key.replace("_", " "), unit) for key, unit in (signals or {}).items()}
+    named = {variable: (variable.replace("_", " "), unit) for variable, _, unit in signals}
     for key, values in series.items():
         long_name, units = (about | named).get(key, (f"force of {key.removeprefix('force_')} on the body", "N, N m"))
         one = values if batched else values[0]
         data[key] = (dims[: one.ndim], one, {"long_name": long_name, "units": units})
-    return xr.Dataset(data, coords=coords)
+    found = xr.Dataset(data, coords=coords)
+    for variable, name, _ in signals:
+        if variable in found:
+            found[variable].attrs["signal"] = name
+    return found
 
 
 def check_variables(variables: Sequence[str]) -> tuple[str, ...]:

@@ -54,7 +54,7 @@ class Run:
         shape = (engine.realisations, steps // stride + 1)
         _check_memory(shape[0] * shape[1], 6 * len(wanted) + 1 + len(signals))
         series = {key: np.empty((*shape, 6)) for key in wanted}
-        series |= {name: np.empty(shape) for name, _ in signals}
+        series |= {variable: np.empty(shape) for variable, _, _ in signals}
         if "elevation" in names and engine.seaway is not None:
             series["elevation"] = np.empty(shape)
         return cls(engine, y, memory, first, origin, steps, stride, loads, series, y.copy())
@@ -124,7 +124,7 @@ class Run:
             self.series["elevation"][r, rows] = engine.elevation(r, t, motion) if engine.large else at_rest
         for load in self.loads:
             load.fill(motion, wave, begin, step, self.series[f"force_{load.name}"][r, rows], t=t, realisation=r)
-        for k, (name, _) in enumerate(engine.signals):
+        for k, (name, _, _) in enumerate(engine.signals):
             if name in self.series:
                 self.series[name][r, rows] = motion[:, engine.scheme.columns - len(engine.signals) + k]
 

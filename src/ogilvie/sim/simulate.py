@@ -107,7 +107,7 @@ def simulate(
     seeds = () if sea is None else sea.seeds
     batched = engine.seaway is not None and engine.seaway.batched
     done = {key: values[:, : run.rows] for key, values in run.series.items()}
-    result = to_dataset(done, run.times(), batched=batched, seeds=seeds, large=engine.large, signals=dict(engine.signals))
+    result = to_dataset(done, run.times(), batched=batched, seeds=seeds, large=engine.large, signals=engine.signals)
     result.attrs = {
         "dt": float(dt),
         "method": method,

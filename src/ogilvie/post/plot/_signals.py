@@ -30,8 +30,7 @@ class Panel:
 def control_panels(run: "xr.Dataset") -> list[Panel]:
     """Return the panels of the first realisation of large motions."""
     eta = run.eta.values.reshape(-1, *run.eta.shape[-2:])[0]
-    signals = recorded(run)
-    by_name = {key.partition("_")[2]: values for key, values in signals.items()}
+    by_name = recorded(run)
     panels = [_heading(eta, by_name)]
     if speed := _speed(run, by_name):
         panels.append(speed)
@@ -44,13 +43,13 @@ def control_panels(run: "xr.Dataset") -> list[Panel]:
 
 
 def recorded(run: "xr.Dataset") -> dict[str, Array]:
-    """Return the signals of the first realisation by the name of their variable, angles in degrees."""
+    """Return the signals of the first realisation by their names, angles in degrees."""
     found = {}
     for key in map(str, run.data_vars):
         one = run[key]
-        if set(one.dims) <= {"realisation", "time"} and key != "elevation":
+        if "signal" in one.attrs:
             values = (one.isel(realisation=0) if "realisation" in one.dims else one).values
-            found[key] = np.degrees(values) if str(one.attrs.get("units")).startswith("rad") else values
+            found[str(one.attrs["signal"])] = np.degrees(values) if str(one.attrs.get("units")).startswith("rad") else values
     return found
 
 
