@@ -87,6 +87,7 @@ _PUBLIC = {
     "jonswap": "waves.spectra",
     "kernel_at_speed": "memory.kernel_at_speed",
     "load_mesh": "mesh.files",
+    "mean_drift": "hydro.drift",
     "npd_gust": "waves.gust",
     "ochi_hubble": "waves.spectra",
     "pierson_moskowitz": "waves.spectra",
