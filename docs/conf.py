@@ -17,4 +17,3 @@ exclude_patterns = ["_build", "**/.ipynb_checkpoints"]
 html_theme = "furo"
 html_title = "ogilvie"
 html_static_path = ["_static"]
-suppress_warnings = ["toc.empty_glob"]  # the pages of docs/validation are made by `ogilvie validate`
