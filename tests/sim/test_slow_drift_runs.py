@@ -30,7 +30,14 @@ def data(barge):
 
 
 def with_drift(barge, load, **more):
-    return og.Vessel(barge.body, loads=(*barge.others, og.StateSpaceRadiation(barge.model), load), **more)
+    waves = og.WaveExcitation(barge.hydro, position="slow")
+    return og.Vessel(barge.body, loads=(*barge.others[:3], waves, og.StateSpaceRadiation(barge.model), load), **more)
+
+
+def test_drift_beside_waves_at_the_place_of_the_moment_is_told(barge, data, seas):
+    ship = og.Vessel(barge.body, loads=(*barge.others, og.StateSpaceRadiation(barge.model), SlowDrift(data)))
+    with pytest.warns(og.OgilvieWarning, match=r"count part of the mean force twice.*position='slow'"):
+        og.simulate(ship, seas.one, duration=1.0, motions="large", ramp=1.0)
 
 
 @pytest.mark.parametrize("approximation", ["newman-arithmetic", "full", "mean"])

@@ -1,5 +1,6 @@
 """What a simulation and a stepper share: equations, scheme, wave forces in blocks, the initial state."""
 
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -8,7 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ogilvie.errors import InputError
+from ogilvie.errors import InputError, OgilvieWarning
+from ogilvie.loads.base import FROUDE_KRYLOV, SLOW_DRIFT
+from ogilvie.loads.excitation import WaveExcitation
 from ogilvie.loads.harmonics import HarmonicGrid
 from ogilvie.sim.forces import LoadForce, load_forces
 from ogilvie.sim.large import LargeMotions
@@ -237,10 +240,24 @@ def make_engine(vessel: Vessel, sea: Sea | None, *, dt: float, method: str, ramp
     about = assemble(vessel, bound=bound) if large else system
     seaway = None if sea is None else meet(system, sea, large=large)
     if large:
+        _warn_of_drift_twice(vessel, sea)
         scheme: Scheme = large_scheme(system, sea, dt=float(dt), method=method, ramp=float(ramp))
     else:
         scheme = make_scheme(system, float(dt), method)
     return Engine(system, about, scheme, seaway, float(dt), float(ramp), large)
+
+
+def _warn_of_drift_twice(vessel: Vessel, sea: Sea | None) -> None:
+    """First-order forces at the place of the moment hold one part of the drift force that a load of slow drift has too."""
+    drift = any(SLOW_DRIFT in load.covers and FROUDE_KRYLOV not in load.covers for load in vessel.loads)
+    met = [load for load in vessel.loads if isinstance(load, WaveExcitation) and load.position == "instantaneous"]
+    if sea is not None and drift and met:
+        warnings.warn(
+            "Vessel: a load of slow drift and wave excitation at the place of the moment count part of the mean force twice. "
+            "Give WaveExcitation(..., position='slow').",
+            OgilvieWarning,
+            stacklevel=4,
+        )
 
 
 def _brings_memory(initial: Initial) -> bool:
