@@ -12,8 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from ogilvie.errors import InputError, OgilvieWarning
 from ogilvie.hydro.schema import DOFS
-from ogilvie.loads.base import DIFFRACTION, FROUDE_KRYLOV, ComplexArray, Surroundings, Terms
+from ogilvie.loads.base import ComplexArray, Surroundings, Terms
 from ogilvie.loads.encounter import encounter_kernel
+from ogilvie.loads.excitation_part import NAMES, PARTS, only_part
 from ogilvie.loads.interpolation import vessel_headings
 from ogilvie.loads.kernel import Kernel
 from ogilvie.loads.speed_table import HeadingTable, SpeedTable, has_rule
@@ -37,11 +38,14 @@ class WaveExcitation:
     position : {"instantaneous", "mean"}
         Where the waves are met in large motions: where the vessel is, at the heading it has; or in the frame that advances
         steadily, as small motions assume.
+    part : {"total", "diffraction", "Froude-Krylov"}
+        The whole force; or one part of it, where another load (:class:`ogilvie.NonlinearFroudeKrylov`) has the other. Parts need
+        ``Froude_Krylov_force`` or ``diffraction_force`` in the data.
 
     Raises
     ------
     InputError
-        The data set holds no wave forces; several sets that do not belong together.
+        The data set holds no wave forces, or not in parts; several sets that do not belong together.
 
     Notes
     -----
@@ -50,8 +54,8 @@ class WaveExcitation:
     periodic in heading where the data go all around. Data of a port-starboard symmetric hull that cover one side serve both.
 
     X at the vessel's speed comes from the data sets at several speeds, or from one at zero speed with ``Froude_Krylov_force``
-    or ``diffraction_force`` by the rule of :func:`ogilvie.at_speed`. Where neither is possible it is taken as it is, with a
-    warning.
+    or ``diffraction_force`` by the rule of :func:`ogilvie.at_speed`, which leaves the Froude-Krylov part as it is. Where neither
+    is possible it is taken as it is, with a warning.
 
     References
     ----------
@@ -71,9 +75,14 @@ class WaveExcitation:
     _table: HeadingTable = field(repr=False)
     _speeds: SpeedTable | None = field(repr=False)
     position: str = "instantaneous"
+    part: str = "total"
     name: str = "excitation"
 
-    def __init__(self, hydro: xr.Dataset | Sequence[xr.Dataset], *, position: str = "instantaneous") -> None:
+    def __init__(
+        self, hydro: xr.Dataset | Sequence[xr.Dataset], *, position: str = "instantaneous", part: str = "total"
+    ) -> None:
+        if part not in PARTS:
+            raise InputError(f"WaveExcitation: part: one of {', '.join(PARTS)} expected, {part!r} found.")
         if position not in ("instantaneous", "mean"):
             raise InputError(f"WaveExcitation: position 'instantaneous' or 'mean' expected, {position!r} found.")
         sets = [hydro] if isinstance(hydro, xr.Dataset) or not isinstance(hydro, Sequence) else list(hydro)
@@ -86,16 +95,18 @@ class WaveExcitation:
                 raise InputError(
                     "WaveExcitation: excitation_force expected in the data set, not found. Read or solve for wave forces."
                 )
+        sets = [only_part(one, part) for one in sets]
         object.__setattr__(self, "hydro", sets[0])
         object.__setattr__(self, "position", position)
-        object.__setattr__(self, "name", "excitation")
+        object.__setattr__(self, "part", part)
+        object.__setattr__(self, "name", NAMES[part])
         object.__setattr__(self, "_table", HeadingTable.of(sets[0]))
         object.__setattr__(self, "_speeds", SpeedTable(sets) if len(sets) > 1 or has_rule(sets[0]) else None)
 
     @property
     def covers(self) -> frozenset[str]:
         """Effects that this load accounts for."""
-        return frozenset({FROUDE_KRYLOV, DIFFRACTION})
+        return PARTS[self.part]
 
     def force(self, omega: ArrayLike, direction: ArrayLike, speed: float | None = None) -> ComplexArray:
         """Return the complex force (n, 6) per metre of wave amplitude.
