@@ -31,16 +31,9 @@ def box_transfer(omega, direction, depth=np.inf):
     """Closed form of the linear Froude-Krylov force (n, 6) of the box in waves along x; z' = 0 at the mean surface."""
     k = og.waves.dispersion.wavenumber(omega, depth)
     c = np.cos(direction)
-    f = np.cosh(k * (depth - T)) / np.cosh(k * depth) if np.isfinite(depth) else np.exp(-k * T)
-    a = 0.5 * k * L
-    ends = (np.tanh(k * depth) - (np.sinh(k * (depth - T)) / np.cosh(k * depth))) / k if np.isfinite(depth) else (1 - f) / k
-    levers = (
-        (f * T - ends) / k
-        if not np.isfinite(depth)
-        else quad(lambda z: z * np.cosh(k * (z + depth)) / np.cosh(k * depth), -T, 0.0)[0]
-    )
-    if not np.isfinite(depth):
-        levers = quad(lambda z: z * np.exp(k * z), -T, 0.0)[0]
+    profile = (lambda z: np.cosh(k * (z + depth)) / np.cosh(k * depth)) if np.isfinite(depth) else (lambda z: np.exp(k * z))
+    f, a = profile(-T), 0.5 * k * L
+    ends, levers = (quad(lambda z, n=n: z**n * profile(z), -T, 0.0)[0] for n in (0, 1))
     X = np.zeros(6, dtype=complex)
     X[0] = RHO_G * B * ends * 2j * np.sin(a) * c
     X[2] = RHO_G * B * f * 2.0 * np.sin(a) / k
@@ -131,7 +124,7 @@ class TestStillWater:
             moved = og.PanelMesh(closed.vertices @ R.T + [0, 0, z], closed.faces)
             F = R @ load().force(eta=[0, 0, z, phi, theta, psi])[:3] + [0, 0, BODY.mass * GRAVITY]
             volume = moved.immersed().volumes[2]
-            assert F == pytest.approx([0, 0, RHO_G * volume], rel=1e-9, abs=1e-7 * RHO_G * volume)
+            assert pytest.approx([0, 0, RHO_G * volume], rel=1e-9, abs=1e-7 * RHO_G * volume) == F
 
     def test_partly_immersed_sphere_converges_to_the_cap(self):
         r, errors = 5.0, []
@@ -144,8 +137,8 @@ class TestStillWater:
             for z in (-3.0, -1.0, 0.0, 2.0, 4.0):
                 h = r - z
                 cap = np.pi * h**2 * (3 * r - h) / 3
-                worst = max(worst, abs(one.force(eta=[0, 0, z, 0.3, 0.2, 0.1]) @ np.r_[rotation_matrix(0.3, 0.2, 0.1)[2], 0, 0, 0]
-                                       / RHO_G - cap))  # fmt: skip
+                F = rotation_matrix(0.3, 0.2, 0.1) @ one.force(eta=[0, 0, z, 0.3, 0.2, 0.1])[:3]
+                worst = max(worst, abs(F[2] / RHO_G - cap))
             errors.append(worst / (4 / 3 * np.pi * r**3))
         assert np.log2(errors[1] / errors[2]) == pytest.approx(2.0, abs=0.5)
         assert errors[2] < 1e-2
@@ -242,7 +235,7 @@ class TestFrozenWave:
         other = og.Sea(omega=sea.omega, direction=-sea.direction, amplitude=sea.amplitude, phase=sea.phase)
         eta = np.array([2.0, 3.0, 0.4, 0.5, 0.1, 0.3])
         assert one.force(other, t=1.0, eta=mirror * eta) == pytest.approx(
-            mirror * one.force(sea, t=1.0, eta=eta), abs=1e-5 * BODY.mass * GRAVITY
+            mirror * one.force(sea, t=1.0, eta=eta), abs=1e-5 * BODY.mass * GRAVITY * L
         )
 
     def test_a_wave_without_end_in_length_lifts_the_water(self):
@@ -272,7 +265,7 @@ class TestFrozenWave:
         encounter = load().bind(Surroundings(BODY)).encounter
         kernel = encounter(sea, 40.0)
         assert len(kernel.own) == 2
-        assert not kernel.force(t=0.0).any()
+        assert np.abs(kernel.force(t=0.0)).max() < 1e-12 * BODY.mass * GRAVITY
         half = og.Sea(omega=sea.omega, direction=sea.direction, amplitude=0.5 * sea.amplitude[0], phase=sea.phase[0])
         assert kernel.force(t=20.0) == pytest.approx(encounter(half, 0.0).force(t=20.0), rel=1e-9)
         assert kernel.force(t=50.0) == pytest.approx(encounter(sea.isel(0), 0.0).force(t=50.0))
@@ -281,7 +274,7 @@ class TestFrozenWave:
 class TestSmallMotions:
     @pytest.mark.parametrize("depth", [np.inf, 12.0])
     def test_difference_to_the_linear_force_is_of_second_order(self, depth):
-        """The finest mesh of a box has its Froude-Krylov force within 1e-3 of the closed form; halving the wave quarters the rest."""
+        """A fine mesh has the closed form of the box within 2e-3; half the wave leaves a quarter of the rest."""
         one = load(barge(6000), data=hydro(water_depth=depth), evaluation="direct", accuracy=1e-7)
         X = box_transfer(0.9, np.pi, depth)
         found = []
@@ -290,14 +283,12 @@ class TestSmallMotions:
             for phase in (0.0, np.pi / 2):  # real and minus imaginary part
                 sea = og.Sea(omega=[0.9], direction=[np.pi], amplitude=[a], phase=[phase], depth=depth)
                 F.append((one.force(sea) - one.force()) / a)
-            found.append(F[0] - 1j * F[1] * -1j * 1j if False else F[0] + 1j * F[1] * -1.0)
+            found.append(F[0] - 1j * F[1])
         size = np.abs(X)[[0, 2, 4]]
-        seen = [(f - X)[[0, 2, 4]] for f in found]
         limit = 2 * found[2] - found[1]  # linear in the amplitude: extrapolated to none
         assert np.abs((limit - X)[[0, 2, 4]] / size).max() < 2e-3
         second = [np.abs(np.array(found[i] - limit)[[0, 2, 4]]).max() for i in range(2)]
         assert np.log2(second[0] / second[1]) == pytest.approx(1.0, abs=0.35)
-        assert np.all(np.isfinite(seen))
 
     def test_small_motions_are_those_of_linear_loads(self):
         springs = og.LinearMooring(np.diag([1e5, 1e5, 0, 0, 0, 1e8]))
@@ -313,7 +304,7 @@ class TestSmallMotions:
     def test_large_motions_tend_to_small_ones(self):
         """In tiny waves large motions with this load are small motions, and so is a steady start."""
         springs, damping = og.LinearMooring(np.diag([1e5, 1e5, 0, 0, 0, 1e8])), og.LinearDamping(BODY.matrix * 0.1)
-        loads = (load(barge(1500)), og.WaveExcitation(HYDRO, part="diffraction"), springs, damping)
+        loads = (load(barge(1500)), og.WaveExcitation(HYDRO, part="diffraction", position="mean"), springs, damping)
         vessel = og.Vessel(BODY, loads=loads)
         sea = og.regular(amplitude=0.01, omega=0.9, direction=np.pi)
         runs = [og.simulate(vessel, sea, duration=20.0, dt=0.1, motions=motions) for motions in ("small", "large")]
@@ -345,7 +336,7 @@ class TestRuns:
         data, sea = HYDRO, og.irregular(og.jonswap(hs=4.0, tp=8.0), direction=np.pi, n=40, seed=3, omega_range=(0.4, 1.9))
         damping = og.LinearDamping(0.3 * BODY.matrix)
         one = load(data=data)
-        vessel = og.Vessel(BODY, loads=(one, og.WaveExcitation(data, part="diffraction"), damping))
+        vessel = og.Vessel(BODY, loads=(one, og.WaveExcitation(data, part="diffraction", position="mean"), damping))
         run = og.simulate(vessel, sea, duration=60.0, dt=0.05, initial={"eta": [0, 0, 10.0, 60 * deg, 0, 0]}, motions="large")
         assert int(run.attrs["complete"]) == 1
         assert np.isfinite(run.eta.values).all()
@@ -359,8 +350,10 @@ class TestRuns:
         with pytest.warns(og.OgilvieWarning, match="balances the weight"):
             one = load(body=heavy)
         sea = og.regular(amplitude=1.0, omega=0.7, direction=np.pi)
-        vessel = og.Vessel(heavy, loads=(one, og.WaveExcitation(HYDRO, part="diffraction")))
-        with pytest.raises(og.errors.ConvergenceError, match=r"froude_krylov is known for hulls at most .* below the waves") as caught:
+        vessel = og.Vessel(heavy, loads=(one, og.WaveExcitation(HYDRO, part="diffraction", position="mean")))
+        with pytest.raises(
+            og.errors.ConvergenceError, match=r"froude_krylov is known for hulls at most .* below the waves"
+        ) as caught:
             og.simulate(vessel, sea, duration=100.0, dt=0.05, initial="rest", motions="large")
         kept = caught.value.result
         assert int(kept.attrs["complete"]) == 0
@@ -396,7 +389,7 @@ class TestRefusals:
 
         with pytest.raises(og.errors.DoubleCountingError, match="slow drift"):
             og.Vessel(BODY, loads=(load(), Drift()))
-        both = og.Vessel(BODY, loads=(load(), og.WaveExcitation(HYDRO, part="diffraction")))
+        both = og.Vessel(BODY, loads=(load(), og.WaveExcitation(HYDRO, part="diffraction", position="mean")))
         assert both.loads[1].covers == {DIFFRACTION}
 
     def test_another_body(self):

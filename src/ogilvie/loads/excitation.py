@@ -39,8 +39,8 @@ class WaveExcitation:
         Where the waves are met in large motions: where the vessel is, at the heading it has; or in the frame that advances
         steadily, as small motions assume.
     part : {"total", "diffraction", "Froude-Krylov"}
-        The whole force; or one part of it, where another load (:class:`ogilvie.NonlinearFroudeKrylov`) has the other. Parts need
-        ``Froude_Krylov_force`` or ``diffraction_force`` in the data.
+        The whole force; or one part of it, where another load (:class:`ogilvie.NonlinearFroudeKrylov`) has the other. Parts
+        need ``Froude_Krylov_force`` or ``diffraction_force`` in the data.
 
     Raises
     ------
@@ -54,8 +54,8 @@ class WaveExcitation:
     periodic in heading where the data go all around. Data of a port-starboard symmetric hull that cover one side serve both.
 
     X at the vessel's speed comes from the data sets at several speeds, or from one at zero speed with ``Froude_Krylov_force``
-    or ``diffraction_force`` by the rule of :func:`ogilvie.at_speed`, which leaves the Froude-Krylov part as it is. Where neither
-    is possible it is taken as it is, with a warning.
+    or ``diffraction_force`` by the rule of :func:`ogilvie.at_speed`, which moves the diffraction part alone. Where neither is
+    possible it is taken as it is, with a warning.
 
     References
     ----------

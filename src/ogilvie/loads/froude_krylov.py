@@ -59,8 +59,8 @@ class NonlinearFroudeKrylov:
 
     Notes
     -----
-    With zeta and p_D = rho g sum_j a_j f_j(z') cos(theta_j) of the undisturbed sea at the place of each vertex, f = cosh k(z' + h)
-    / cosh kh, and Wheeler's z' = (z - zeta) h/(h + zeta),
+    With zeta and p_D = rho g sum_j a_j f_j(z') cos(theta_j) of the undisturbed sea at the place of each vertex,
+    f = cosh k(z' + h)/cosh kh, and Wheeler's z' = (z - zeta) h/(h + zeta),
 
         F = - int_wet (p_D - rho g z) n dS + m g,      N = - int_wet (p_D - rho g z) r x n dS + r_G x m g
 
@@ -129,9 +129,9 @@ class NonlinearFroudeKrylov:
         data = _packed(closed, weight, rho, g)
         stiffness = hydrostatics(hull.immersed(), body=body, rho=rho, g=g).stiffness
         rest = Kernel(still_force, data).force()
-        for key, value in (("weight", weight), ("stiffness", stiffness), ("rest", rest), ("_hull", data)):
-            value.setflags(write=False)
-            object.__setattr__(self, key, value)
+        for key, array in (("weight", weight), ("stiffness", stiffness), ("rest", rest), ("_hull", data)):
+            array.setflags(write=False)
+            object.__setattr__(self, key, array)
         for key, given in (
             ("hydro", hydro),
             ("stretching", stretching),
@@ -166,7 +166,7 @@ class NonlinearFroudeKrylov:
             small=Terms(stiffness=self.stiffness, wave=wave),
         )
 
-    def force(self, sea: Sea | None = None, *, t: ArrayLike = 0.0, eta: ArrayLike = np.zeros(6)) -> Array:
+    def force(self, sea: Sea | None = None, *, t: ArrayLike = 0.0, eta: ArrayLike = (0, 0, 0, 0, 0, 0)) -> Array:
         """Return weight and pressure force on the body about O, in body axes.
 
         Parameters
@@ -195,7 +195,7 @@ class NonlinearFroudeKrylov:
         if abs(share) > _BALANCE:
             warnings.warn(
                 f"NonlinearFroudeKrylov: buoyancy that balances the weight at eta = 0 expected, {100 * share:+.3g} % of the "
-                "weight left over; the vessel moves to another draught. Make body (RigidBody.from_hull) and data for this hull.",
+                "weight left over; the vessel moves to another draught. Make the body for this hull (RigidBody.from_hull).",
                 OgilvieWarning,
                 stacklevel=3,
             )

@@ -85,11 +85,12 @@ class IncidentField:
         single = sum(int(g[1]) for g in groups)
         finite = depth if np.isfinite(depth) else 0.0
         head = [len(k), len(groups), single, rows, c, finite, ramp, STRETCHING[stretching]]
-        parts = [head, np.ravel(groups), omega, kx, ky, k, np.cos(turn), np.sin(turn), factor.ravel(), slope]
+        described = np.array(groups, dtype=float).ravel()
+        parts: list[Array] = [np.array(head), described, omega, kx, ky, k, np.cos(turn), np.sin(turn), factor.ravel(), slope]
         amplitude, phase = np.atleast_2d(sea.amplitude)[:, order], np.atleast_2d(sea.phase)[:, order]
         shape = np.broadcast_shapes(amplitude.shape, phase.shape)
         own = np.concatenate([np.broadcast_to(amplitude, shape), np.broadcast_to(phase, shape)], axis=1)
-        return cls(np.concatenate([np.ravel(p) for p in parts]), own, c * (rows - 3.0) ** 2)
+        return cls(np.concatenate(parts), own, c * (rows - 3.0) ** 2)
 
 
 def _shares(sea: Sea) -> Array:

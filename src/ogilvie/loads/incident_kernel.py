@@ -99,7 +99,7 @@ def incident(x, data, own, X, Y, Z, zeta, head):
     Returns False, with nothing to rely on, where a point lies deeper than the table or the bottom falls dry.
     """
     n, n_g, single, rows = int(data[0]), int(data[1]), int(data[2]), int(data[3])
-    first = HEAD + GROUP * n_g
+    HEAD + GROUP * n_g
     cosine, sine = np.empty(n), np.empty(n)
     phasors(x, data, own, cosine, sine)
     zeta[:] = 0.0
