@@ -18,15 +18,18 @@ from ogilvie.loads.given import number
 from ogilvie.loads.incident_field import STRETCHING, IncidentField
 from ogilvie.loads.kernel import Kernel
 from ogilvie.loads.wet_panels import vertex_weights
-from ogilvie.mesh.deck import decked
+from ogilvie.mesh.deck_across import decked_across
 from ogilvie.mesh.hydrostatics import hydrostatics
 from ogilvie.mesh.integrals import triangles
 from ogilvie.mesh.panels import PanelMesh
+from ogilvie.mesh.split import split_long_edges
 from ogilvie.waves.field import Sea
 
 Array = NDArray[Any]
 
 _BALANCE = 0.005  # of the weight: imbalance at eta = 0 from which on a warning is due
+
+_LONGEST = 0.1  # of the hull's extent: longest edge of a triangle
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -65,7 +68,8 @@ class NonlinearFroudeKrylov:
         F = - int_wet (p_D - rho g z) n dS + m g,      N = - int_wet (p_D - rho g z) r x n dS + r_G x m g
 
     in body axes about O. Pressure and height of the surface over the hull are linear on each triangle (a panel is two); the
-    zero of the latter cuts it. Still water is exact for the panels; in waves the error falls with the square of their size.
+    zero of the latter cuts it. Triangles with edges above a tenth of the hull's extent are split.
+    Still water is exact for the panels; in waves the error falls with the square of their size.
     Two compiled forces add up: still water, which acts always, and what the sea adds to it.
 
     Covers restoring, Froude-Krylov force and slow drift (its second-order parts would be counted twice by a drift force).
@@ -123,7 +127,7 @@ class NonlinearFroudeKrylov:
             if value not in known:
                 raise InputError(f"NonlinearFroudeKrylov: {what}: one of {', '.join(known)} expected, {value!r} found.")
         linear = WaveExcitation(hydro, part="Froude-Krylov")
-        closed = decked(hull)
+        closed = decked_across(hull)
         rho, g = float(hydro.attrs["rho"]), float(hydro.attrs["g"])
         weight = np.r_[float(body.mass), np.array(body.cog, dtype=float)]
         data = _packed(closed, weight, rho, g)
@@ -224,8 +228,10 @@ def _packed(closed: PanelMesh, weight: Array, rho: float, g: float) -> Array:
     tri = triangles(closed.faces)
     p = closed.vertices[tri]
     tri = tri[np.linalg.norm(np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), axis=1) > 0.0]
+    length = _LONGEST * float(np.ptp(closed.bounds, axis=0).max())
+    vertices, tri = split_long_edges(closed.vertices, tri, length=length)  # a deck may come as a few large triangles
     used, places = np.unique(tri, return_inverse=True)
-    tri, vertices = places.reshape(tri.shape), closed.vertices[used]
+    tri, vertices = places.reshape(tri.shape), vertices[used]
     head = [len(vertices), len(tri), rho * g, weight[0] * g, *weight[1:]]
     assert len(head) == HULL
     W = vertex_weights(vertices, tri)
