@@ -188,7 +188,7 @@ def _checks(points: list[dict[str, float]], cycles: dict[str, Any]) -> list[dict
         _check("runs on the other side of Floquet's boundary", _others(found[clear], theory[clear]),
                0.0, 0.0, "", f"of {clear.sum()} that lie 0.002 1/s away from it"),
         _check("runs on the other side of Mathieu's", _others(found[clear], mathieu[clear]), 0.0, 0, "", first),
-        _check("limit cycle in a wave of 4 m, from a large less from a small start", end["large"] - end["small"], 0.0, 0.3, "deg",
+        _check("limit cycle in a wave of 4 m, large less small start", end["large"] - end["small"], 0.0, 0.3, "deg",
                f"{end['small']:.2f} deg"),
     ]  # fmt: skip
 

@@ -10,7 +10,7 @@ from ogilvie.loads.froude_krylov import NonlinearFroudeKrylov
 
 TITLE = "Heave decay of a sphere"
 ABOUT = """A sphere of 10 m diameter floats to its equator in deep water (IEA OES Task 10; Wendt et al. 2017, 2019) and is
-released 1 m above that. Its heave is compared with four linear codes, a nonlinear one (MARIN) and CFD (NREL): once with linear
+released 1 m above that. Its heave is compared with five codes, MARIN's nonlinear one and CFD (NREL): once with linear
 restoring, once with the buoyancy of the instantaneous wetted surface, both with the same linear radiation as a state space.
 At 1 m the wetted surface matters little: the waterplane shrinks by 4 % either way, so the period grows. The larger drops (3 m,
 and 5 m, where the sphere just touches the water) show what restoring alone does to the decay; added mass and wave damping stay
