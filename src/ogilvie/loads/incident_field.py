@@ -2,8 +2,9 @@
 
 Each component is a phase at O (one sine and cosine), a factor of the horizontal place and a factor of the height. Components of
 one direction depend on one horizontal coordinate: they are summed on a line of equal steps, where the phase turns by a constant
-from point to point, for every height of a table, and interpolated to the points. Components that share their direction with few
-others are evaluated at every point. Heights are always interpolated, so no exponential is taken in the time loop.
+from point to point, for every height of a table, and interpolated to the points. Where there are many directions, components
+that share theirs with few others are evaluated at every point, in single precision (1e-6 of the elevation). Heights are always
+interpolated, so no exponential is taken in the time loop.
 """
 
 from dataclasses import dataclass
@@ -21,7 +22,7 @@ HEAD, GROUP = 8, 5  #: numbers of the header; of a group of components
 STRETCHING = {"wheeler": 0.0, "vertical": 1.0, "extrapolated": 2.0}
 
 _CUBIC = 3.0 / 128.0  # largest error of cubic interpolation over the fourth derivative times the step^4
-_WORTH = 12  # components of one direction from which on a line pays
+_FEW, _WORTH = 4, 32  # directions that all get a line; components of one direction from which on a line pays
 _FINEST, _MOST = 0.02, 400  # rad of the shortest wave per step; heights of the table
 
 
@@ -104,14 +105,15 @@ def _grouped(sea: Sea, weight: Array, accuracy: float, lines: bool) -> tuple[NDA
     """Return the order of the components, those on lines first, and the groups."""
     directions, which = np.unique(sea.direction.round(12), return_inverse=True)
     members = [np.flatnonzero(which == g) for g in range(len(directions))]
+    least = (1 if len(directions) <= _FEW else _WORTH) if lines else len(which) + 1
     order: list[NDArray[np.intp]] = []
     groups: list[list[float]] = []
     for direction, m in zip(directions, members, strict=True):
-        if lines and len(m) >= _WORTH:
+        if len(m) >= least:
             step = _step(sea.wavenumber[m], weight[m], accuracy)
             groups.append([sum(len(o) for o in order), len(m), np.cos(direction), np.sin(direction), step])
             order.append(m)
-    order += [m for m in members if not (lines and len(m) >= _WORTH)]
+    order += [m for m in members if len(m) < least]
     return np.concatenate(order), groups
 
 
