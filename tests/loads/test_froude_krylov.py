@@ -363,6 +363,7 @@ class TestRuns:
         assert 3.0 < float(kept.time[-1]) < 60.0
         assert np.isfinite(kept.eta.values[:-1]).all()
 
+    @pytest.mark.filterwarnings("ignore:invalid value encountered:RuntimeWarning")  # of the rotation matrix
     def test_poses_that_are_not_numbers_give_nan(self):
         terms = load().bind(Surroundings(BODY))
         sea = og.regular(amplitude=1.0, omega=0.7, direction=np.pi)
@@ -418,6 +419,17 @@ class TestRefusals:
             load(BARGE.immersed())
         with pytest.raises(og.InputError, match="Froude_Krylov_force or diffraction_force expected"):
             load(data=HYDRO.drop_vars("Froude_Krylov_force"))
+
+    def test_things_of_another_kind(self):
+        for bad in ({"hull": BARGE.vertices}, {"body": 3.0}, {"data": {"rho": 1.0}}):
+            with pytest.raises(og.InputError, match=r"a PanelMesh expected|a RigidBody expected|xarray\.Dataset"):
+                load(**bad)
+
+    def test_data_at_several_speeds(self):
+        one = load(data=[HYDRO, HYDRO.assign_attrs(speed=5.0)])
+        assert one.bind(Surroundings(BODY, speed=2.0)).wave(og.regular(amplitude=1.0, omega=0.8, direction=np.pi), 0.0)[
+            0
+        ] == pytest.approx(box_transfer(0.8, np.pi), rel=1e-3, abs=1e-3 * RHO_G * L * B)
 
     def test_too_much_accuracy(self):
         sea = og.regular(amplitude=1.0, omega=60.0, direction=0.0)

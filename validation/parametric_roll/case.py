@@ -24,7 +24,7 @@ has grown ends in a limit cycle, set by the righting arm and quadratic damping, 
 NEEDS: list[str] = []
 HEIGHT = 5.6
 
-OMEGA = np.arange(0.1, 1.61, 0.1)
+OMEGA = np.arange(0.1, 1.41, 0.1)
 WAVE = 0.593  # rad/s: 175 m
 SPEEDS = (2.0, 2.75, 3.25, 3.75, 4.5, 5.5)  # m/s
 AMPLITUDES = (0.3, 0.6, 1.2, 1.8)  # m
@@ -39,7 +39,7 @@ class Ship:
     """Hull, data and memory, and vessels made of them."""
 
     def __init__(self) -> None:
-        self.hull = with_raised_sides(og.shapes.s175(panels=500, above_water=True), 5.9)
+        self.hull = with_raised_sides(og.shapes.s175(panels=700, above_water=True), 5.9)
         wet = self.hull.immersed()
         self.body = og.RigidBody.from_hull(wet, kg=9.52, gyradii=(8.33, 42.0, 42.0))
         self.hydro = _guided(og.solve_bem(wet, self.body, omega=OMEGA, wave_direction=[np.pi], progress=False))

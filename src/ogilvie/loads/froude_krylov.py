@@ -1,6 +1,7 @@
 """Pressure of the undisturbed waves on the instantaneous wetted hull: nonlinear Froude-Krylov force and restoring."""
 
 import warnings
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
@@ -42,9 +43,9 @@ class NonlinearFroudeKrylov:
         Up to the deck, in the body's axes, normals into the fluid; a watertight deck is put across where it is open at the top.
     body : RigidBody
         Mass and centre of gravity.
-    hydro : xarray.Dataset
-        With ``excitation_force`` and ``Froude_Krylov_force`` or ``diffraction_force``: the linear force that stands for the
-        load in small motions; its ``rho`` and ``g``.
+    hydro : xarray.Dataset or sequence of them
+        As for :class:`ogilvie.WaveExcitation`, with ``Froude_Krylov_force`` or ``diffraction_force``: the linear force that
+        stands for the load in small motions; its ``rho`` and ``g``.
     stretching : {"wheeler", "vertical", "extrapolated"}
         Pressure near the surface: the linear profile stretched to the instantaneous depth (zero pressure at the surface);
         that of z = 0 above it; the linear profile continued above z = 0 by its slope. Without effect for surface="mean".
@@ -95,7 +96,7 @@ class NonlinearFroudeKrylov:
     np.float64(-0.5)
     """
 
-    hydro: xr.Dataset = field(repr=False)
+    hydro: xr.Dataset | Sequence[xr.Dataset] = field(repr=False)
     stretching: str
     surface: str
     evaluation: str
@@ -112,7 +113,7 @@ class NonlinearFroudeKrylov:
         self,
         hull: PanelMesh,
         body: RigidBody,
-        hydro: xr.Dataset,
+        hydro: xr.Dataset | Sequence[xr.Dataset],
         *,
         stretching: str = "wheeler",
         surface: str = "incident",
@@ -126,9 +127,12 @@ class NonlinearFroudeKrylov:
         ):
             if value not in known:
                 raise InputError(f"NonlinearFroudeKrylov: {what}: one of {', '.join(known)} expected, {value!r} found.")
+        for what, thing, kind in (("hull", hull, PanelMesh), ("body", body, RigidBody)):
+            if not isinstance(thing, kind):
+                raise InputError(f"NonlinearFroudeKrylov: {what}: a {kind.__name__} expected, {type(thing).__name__} found.")
         linear = WaveExcitation(hydro, part="Froude-Krylov")
         closed = decked_across(hull)
-        rho, g = float(hydro.attrs["rho"]), float(hydro.attrs["g"])
+        rho, g = (float(linear.hydro.attrs[key]) for key in ("rho", "g"))
         weight = np.r_[float(body.mass), np.array(body.cog, dtype=float)]
         data = _packed(closed, weight, rho, g)
         stiffness = hydrostatics(hull.immersed(), body=body, rho=rho, g=g).stiffness
