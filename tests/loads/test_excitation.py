@@ -161,6 +161,41 @@ def test_data_without_forces():
         og.WaveExcitation({"excitation_force": 1})
 
 
+def in_parts(**more):
+    data = hydro(np.arange(0, 181, 30), **more)
+    return data.assign(Froude_Krylov_force=(0.6 + 0.3j) * data.excitation_force)
+
+
+def test_parts_add_up_to_the_whole():
+    data = in_parts()
+    alone = data.assign(diffraction_force=data.excitation_force - data.Froude_Krylov_force).drop_vars("Froude_Krylov_force")
+    w, b = np.linspace(0.2, 2.0, 30), np.linspace(-3.0, 3.0, 30)
+    for source in (data, alone):
+        parts = [og.WaveExcitation(source, part=part) for part in ("diffraction", "Froude-Krylov")]
+        for speed in (0.0, 7.0):
+            whole = og.WaveExcitation(source).force(w, b, speed)
+            assert sum(part.force(w, b, speed) for part in parts) == pytest.approx(whole, abs=1e-12)
+        assert parts[1].force(w, b, 7.0) == pytest.approx(parts[1].force(w, b, 0.0), abs=1e-12)  # no speed in it
+        assert np.abs(parts[0].force(w, b, 7.0) - parts[0].force(w, b, 0.0)).max() > 0.1
+    assert og.WaveExcitation(data, part="diffraction").force([0.5], [np.pi]) == pytest.approx(
+        (0.4 - 0.3j) * og.WaveExcitation(data).force([0.5], [np.pi])
+    )
+
+
+def test_a_part_covers_its_own_effect():
+    data = in_parts()
+    names = {part: og.WaveExcitation(data, part=part).name for part in ("total", "diffraction", "Froude-Krylov")}
+    assert names == {"total": "excitation", "diffraction": "diffraction", "Froude-Krylov": "froude_krylov"}
+    both = (og.WaveExcitation(data, part="diffraction"), og.WaveExcitation(data, part="Froude-Krylov"))
+    og.Vessel(BODY, loads=both)
+    with pytest.raises(og.errors.DoubleCountingError, match="diffraction force"):
+        og.Vessel(BODY, loads=(og.WaveExcitation(data), both[0]))
+    with pytest.raises(og.InputError, match="Froude_Krylov_force or diffraction_force expected"):
+        og.WaveExcitation(hydro([180.0]), part="diffraction")
+    with pytest.raises(og.InputError, match="part: one of"):
+        og.WaveExcitation(data, part="incident")
+
+
 def test_measured_vessel_is_symmetric(shared_data):
     """The tanker's data go all around; both sides mirror each other within the accuracy of the panel code."""
     data = og.read_hydro(shared_data / "mss_wamit_tanker" / "tanker.1")

@@ -12,8 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from ogilvie.errors import InputError, OgilvieWarning
 from ogilvie.hydro.schema import DOFS
-from ogilvie.loads.base import DIFFRACTION, FROUDE_KRYLOV, ComplexArray, Surroundings, Terms
+from ogilvie.loads.base import ComplexArray, Surroundings, Terms
 from ogilvie.loads.encounter import encounter_kernel
+from ogilvie.loads.excitation_part import NAMES, PARTS, only_part
 from ogilvie.loads.interpolation import vessel_headings
 from ogilvie.loads.kernel import Kernel
 from ogilvie.loads.speed_table import HeadingTable, SpeedTable, has_rule
@@ -41,11 +42,14 @@ class WaveExcitation:
     speeds : (float, float), optional
         Mean speeds through the water, m/s, that a vessel in large motions may have. By default those of the data sets; with one
         at zero speed up to half as fast again as the vessel's own, and 2 m/s either way for one that lies still.
+    part : {"total", "diffraction", "Froude-Krylov"}
+        The whole force; or one part of it, where another load (:class:`ogilvie.NonlinearFroudeKrylov`) has the other. Parts
+        need ``Froude_Krylov_force`` or ``diffraction_force`` in the data.
 
     Raises
     ------
     InputError
-        The data set holds no wave forces; several sets that do not belong together.
+        The data set holds no wave forces, or not in parts; several sets that do not belong together.
 
     Notes
     -----
@@ -54,8 +58,8 @@ class WaveExcitation:
     periodic in heading where the data go all around. Data of a port-starboard symmetric hull that cover one side serve both.
 
     X at the vessel's speed comes from the data sets at several speeds, or from one at zero speed with ``Froude_Krylov_force``
-    or ``diffraction_force`` by the rule of :func:`ogilvie.at_speed`. Where neither is possible it is taken as it is, with a
-    warning.
+    or ``diffraction_force`` by the rule of :func:`ogilvie.at_speed`, which moves the diffraction part alone. Where neither is
+    possible it is taken as it is, with a warning.
 
     References
     ----------
@@ -76,6 +80,7 @@ class WaveExcitation:
     _speeds: SpeedTable | None = field(repr=False)
     position: str = "instantaneous"
     speeds: tuple[float, float] | None = None
+    part: str = "total"
     name: str = "excitation"
 
     def __init__(
@@ -84,7 +89,10 @@ class WaveExcitation:
         *,
         position: str = "instantaneous",
         speeds: tuple[float, float] | None = None,
+        part: str = "total",
     ) -> None:
+        if part not in PARTS:
+            raise InputError(f"WaveExcitation: part: one of {', '.join(PARTS)} expected, {part!r} found.")
         if position not in ("instantaneous", "slow", "mean"):
             raise InputError(f"WaveExcitation: position 'instantaneous', 'slow' or 'mean' expected, {position!r} found.")
         if speeds is not None and not (len(speeds) == 2 and np.all(np.isfinite(speeds)) and speeds[0] < speeds[1]):
@@ -99,17 +107,19 @@ class WaveExcitation:
                 raise InputError(
                     "WaveExcitation: excitation_force expected in the data set, not found. Read or solve for wave forces."
                 )
+        sets = [only_part(one, part) for one in sets]
         object.__setattr__(self, "hydro", sets[0])
         object.__setattr__(self, "position", position)
         object.__setattr__(self, "speeds", None if speeds is None else (float(speeds[0]), float(speeds[1])))
-        object.__setattr__(self, "name", "excitation")
+        object.__setattr__(self, "part", part)
+        object.__setattr__(self, "name", NAMES[part])
         object.__setattr__(self, "_table", HeadingTable.of(sets[0]))
         object.__setattr__(self, "_speeds", SpeedTable(sets) if len(sets) > 1 or has_rule(sets[0]) else None)
 
     @property
     def covers(self) -> frozenset[str]:
         """Effects that this load accounts for."""
-        return frozenset({FROUDE_KRYLOV, DIFFRACTION})
+        return PARTS[self.part]
 
     def force(self, omega: ArrayLike, direction: ArrayLike, speed: float | None = None) -> ComplexArray:
         """Return the complex force (n, 6) per metre of wave amplitude.

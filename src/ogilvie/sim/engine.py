@@ -196,7 +196,8 @@ class Engine:
         if self.seaway is None:
             return self._in_world(y), self.scheme.rest(y[:, 6:]), 0.0
         w, a = self.seaway.frequency, self.seaway.amplitude
-        X = self.seaway.response(self.about)
+        seaway = meet(self.about, self.seaway.sea, large=False) if self.large else self.seaway
+        X = seaway.response(self.about)
         V = 1j * w[:, None] * X - self.system.speed * X @ TURNING.T
         y[:, :6] += combine_harmonics(a, X) + self._drifted()
         y[:, 6:] = combine_harmonics(a, V)
