@@ -52,13 +52,18 @@ class Quadratic:
         Of each component.
     far : (n_w, n_b, 6) array
         Mean drift of the far field.
-    motion : (n_w, n_b, 6) complex array
+    added_mass, damping : (n_w, 6, 6) array
+    excitation, motion : (n_w, n_b, 6) complex array
+        First order.
     """
 
     same: Complex
     pairs: Complex | None
     method: tuple[str, ...]
     far: Array
+    added_mass: Array
+    damping: Array
+    excitation: Complex
     motion: Complex
 
 
@@ -70,10 +75,12 @@ def quadratic_forces(
     surface = None
     if choice.method != "near":
         surface = control_surface(solver.hull, k=float(case.k.max()), depth=case.depth)
-    waves, outer, far = [], [], []
+    waves, outer, far, radiation, excitation = [], [], [], [], []
     for i in tracked(range(len(case.omega)), show=progress, title=f"second order of {case.panels.hull.name}"):
         first = solver.first_order(float(case.omega[i]), float(case.k[i]), dynamics)
         waves.append(on_hull(first, choice.waterline))
+        radiation.append(first.radiation)
+        excitation.append(first.excitation)
         far.append(np.einsum("bbi->bi", far_field(first).force).real)
         if surface is not None:
             where = f"control{len(surface.points)}"
@@ -83,12 +90,13 @@ def quadratic_forces(
     n_w, n_b = len(case.omega), len(case.direction)
     groups = [np.arange(n_b)] if choice.pairs else [np.array([b]) for b in range(n_b)]
     forms, methods = zip(*[_form(waves, outer, group, solver, case, choice) for group in groups], strict=True)
-    motion = np.array([w.motion for w in waves])
+    A, B = (np.array(values) for values in zip(*radiation, strict=True))
+    order = np.array(far), A, B, np.array(excitation), np.array([w.motion for w in waves])
     if choice.pairs:
         full = forms[0].reshape(n_w, n_b, n_w, n_b, 6)
         pairs = full.transpose(0, 2, 1, 3, 4).reshape(n_w, n_w, n_b * n_b, 6)
-        return Quadratic(np.einsum("pbqbi->pqbi", full), pairs, methods[0], np.array(far), motion)
-    return Quadratic(np.stack(forms, axis=2) + bound, None, methods[0], np.array(far), motion)
+        return Quadratic(np.einsum("pbqbi->pqbi", full), pairs, methods[0], *order)
+    return Quadratic(np.stack(forms, axis=2) + bound, None, methods[0], *order)
 
 
 def _form(
@@ -108,7 +116,7 @@ def _form(
     if choice.about_body:
         best = best.copy()
         best[..., 3:] -= cross_mean(all_waves.motion[:, :3], all_waves.force)
-    return np.asarray(best), tuple(chosen)
+    return np.asarray(0.5 * (best + best.conj().swapaxes(0, 1))), tuple(chosen)  # rounding would show where all is zero
 
 
 def _side_by_side(waves: Sequence[OnHull], group: Ints) -> OnHull:

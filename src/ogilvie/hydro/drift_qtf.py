@@ -9,12 +9,13 @@ from numpy.typing import ArrayLike
 
 from ogilvie.body import RigidBody
 from ogilvie.errors import InputError, OgilvieWarning
-from ogilvie.hydro.bem_case import Irregular
+from ogilvie.hydro.bem_case import Case, Irregular
 from ogilvie.hydro.drift_first import WaterlineRule
 from ogilvie.hydro.drift_inputs import checked_case, checked_dynamics
 from ogilvie.hydro.drift_pairs import Choice, QtfMethod, Quadratic, SecondOrder, quadratic_forces
 from ogilvie.hydro.drift_static import Rotation
-from ogilvie.hydro.schema import DOFS, TIME_CONVENTION
+from ogilvie.hydro.qtf import with_qtf
+from ogilvie.hydro.schema import DOFS, hydro_from_arrays
 from ogilvie.hydro.threads import available_cores
 from ogilvie.mesh.panels import PanelMesh
 from ogilvie.units import GRAVITY, SEA_WATER
@@ -80,11 +81,11 @@ def qtf(
     xarray.Dataset
         * qtf_diff (omega_1, omega_2, wave_direction, influenced_dof), N/m2 and N m/m2; its attribute `method` names the method
           of each component; qtf_diff_pairs (omega_1, omega_2, qtf_pair, influenced_dof)
-        * mean_drift_momentum (omega, wave_direction, influenced_dof), the far field, against which to hold the diagonal
-        * motion_rao
+        * mean_drift (omega, wave_direction, influenced_dof), its diagonal; mean_drift_momentum, the far field
+        * added_mass, radiation_damping, excitation_force, motion_rao: the first order it was made of
 
-        ``SlowDrift(result, approximation="full")`` takes it as it is; ``with_qtf(hydro, omega=result.omega_1,
-        qtf_diff=result.qtf_diff)`` puts it into a data set of the same directions.
+        Obeys :mod:`ogilvie.hydro.schema`: ``SlowDrift(result, approximation="full")`` takes it as it is, and
+        ``with_qtf(hydro, omega=result.omega_1, qtf_diff=result.qtf_diff)`` puts it into another data set of these directions.
 
     Raises
     ------
@@ -140,42 +141,42 @@ def qtf(
     choice = Choice(rotation, waterline, method, second_order, moments == "body", pairs)
     dynamics = checked_dynamics(case, body, damping, stiffness, purpose="qtf")
     found = quadratic_forces(case, dynamics, choice, cache=cache, workers=workers or available_cores(), progress=progress)
-    result = _as_dataset(found, case.omega, case.direction).assign_attrs(
-        rho=case.rho,
-        g=case.g,
-        water_depth=case.depth,
-        speed=0.0,
+    result = _as_dataset(found, case).assign_attrs(
         moments=moments,
         rotation=rotation,
         waterline=waterline,
         second_order=second_order,
         body="fixed" if body is None else body.name,
-        name=case.panels.hull.name,
-        time_convention=TIME_CONVENTION,
-        units="N/m2, N m/m2 per square metre of wave amplitude",
     )
     _warn_of_diagonal(result)
     return result
 
 
-def _as_dataset(found: Quadratic, omega: np.ndarray, direction: np.ndarray) -> xr.Dataset:
-    one = ("omega", "wave_direction", "influenced_dof")
-    taken = ", ".join(f"{dof}: {name}" for dof, name in zip(DOFS, found.method, strict=True))
-    coords = {name: omega for name in ("omega", "omega_1", "omega_2")}
-    result = xr.Dataset(
-        {
-            "qtf_diff": (("omega_1", "omega_2", "wave_direction", "influenced_dof"), found.same, {"method": taken}),
-            "mean_drift_momentum": (one, found.far),
-            "motion_rao": (one, found.motion),
-        },
-        coords={**coords, "wave_direction": direction, "influenced_dof": list(DOFS)},
+def _as_dataset(found: Quadratic, case: Case) -> xr.Dataset:
+    """Return a data set that obeys :mod:`ogilvie.hydro.schema`."""
+    hydro = hydro_from_arrays(
+        omega=case.omega,
+        added_mass=found.added_mass,
+        radiation_damping=found.damping,
+        wave_direction=case.direction,
+        excitation_force=found.excitation,
+        motion_rao=found.motion,
+        mean_drift=np.einsum("wwbi->wbi", found.same).real,
+        rho=case.rho,
+        g=case.g,
+        water_depth=case.depth,
+        name=case.panels.hull.name,
+        source="ogilvie.qtf",
     )
-    if found.pairs is not None:
-        n = len(direction)
-        two = {"qtf_direction_1": np.repeat(direction, n), "qtf_direction_2": np.tile(direction, n)}
-        result["qtf_diff_pairs"] = (("omega_1", "omega_2", "qtf_pair", "influenced_dof"), found.pairs)
-        result = result.assign_coords({name: ("qtf_pair", value) for name, value in two.items()})
-    return result
+    hydro["mean_drift_momentum"] = hydro.mean_drift.dims, found.far
+    result = with_qtf(hydro, omega=case.omega, qtf_diff=found.same)
+    taken = ", ".join(f"{dof}: {name}" for dof, name in zip(DOFS, found.method, strict=True))
+    result.qtf_diff.attrs["method"] = taken
+    if found.pairs is None:
+        return result
+    n = len(case.direction)
+    two = np.stack([np.repeat(case.direction, n), np.tile(case.direction, n)], axis=1)
+    return with_qtf(result, omega=case.omega, qtf_diff=found.pairs, direction_pairs=two)
 
 
 def _warn_of_diagonal(result: xr.Dataset) -> None:
