@@ -65,7 +65,7 @@ def qtf(
         About O: external damping and stiffness of the first-order motions.
     second_order : {"none", "pinkster"}
         Leave the potential of second order out, or take that of the incident waves and its diffraction by a scaled
-        first-order wave force.
+        first-order wave force. That is nothing on the diagonal; in finite depth heave, roll and pitch jump there.
     method : {"auto", "near", "control_surface"}
         "near": pressure on the hull. "control_surface": its squared velocities replaced by those on a surface around the
         hull, for sharp edges. "auto": that, and the near field for the components it does not give.
@@ -105,7 +105,7 @@ def qtf(
     F = Re sum over ordered pairs of a_m a_n* Q_mn exp(i (w_m - w_n) t), Q Hermitian, as in
     :func:`ogilvie.hydro.qtf.with_qtf`. On the diagonal it is the mean drift by the same method. Forces of the water alone:
     inertia of second order belongs to the equations of motion. Without the potential of second order the error grows with the
-    difference of frequencies. Derivation: docs/theory/drift.md.
+    difference of frequencies; with "pinkster" scattered waves are still missing from it. Derivation: docs/theory/drift.md.
 
     References
     ----------
