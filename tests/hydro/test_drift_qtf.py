@@ -112,6 +112,13 @@ def test_control_surface_and_near_field_agree_on_a_sphere(near, control):
         assert np.abs(one[0, 3, :, dof].imag).max() > 2.0 * part * size[dof]
 
 
+def test_methods_agree_in_shallow_water(sphere):
+    keys = {"omega": OMEGA[[0, 2]], "wave_direction": [0.3], "water_depth": 1.6, **QUIET}
+    one, two = (qtf(sphere, afloat(sphere), method=m, **keys).qtf_diff.values[..., 0, :] / UNIT for m in ("near", "auto"))
+    size = np.abs(two).max(axis=(0, 1))
+    assert np.all((np.abs(one - two).max(axis=(0, 1)) / size)[:5] < [0.01, 0.01, 0.04, 0.02, 0.02])
+
+
 def test_sharp_edges_need_the_control_surface():
     hull = shapes.box(10.0, 2.0, 0.6, panels=300, grading=0.7)
     keys = {"omega": [1.6, 2.2, 2.8], "wave_direction": np.radians([135.0]), **QUIET}
