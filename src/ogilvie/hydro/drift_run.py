@@ -209,5 +209,6 @@ def _refuse_too_large(case: Case) -> None:
     if needed > memory:
         raise InputError(
             f"second-order forces: a mesh that fits into {memory / 1e9:.3g} GB of memory expected, {n} stored panels found, "
-            f"which need {needed / 1e9:.3g} GB. Use a coarser mesh, or store the hull with its symmetry: hull.with_symmetry('xz')."
+            f"which need {needed / 1e9:.3g} GB. Use a coarser mesh, or store the hull with its symmetry: "
+            "hull.with_symmetry('xz')."
         )
