@@ -5,25 +5,21 @@ from typing import Literal, get_args
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ogilvie.body import RigidBody
 from ogilvie.errors import InputError, OgilvieWarning
-from ogilvie.hydro.bem_case import Case, Irregular, make_case, warn_if_coarse
-from ogilvie.hydro.drift_first import Dynamics, WaterlineRule
+from ogilvie.hydro.bem_case import Irregular
+from ogilvie.hydro.drift_first import WaterlineRule
+from ogilvie.hydro.drift_inputs import checked_case, checked_dynamics
 from ogilvie.hydro.drift_result import Method, as_dataset
 from ogilvie.hydro.drift_run import Options, drifts
 from ogilvie.hydro.drift_static import Rotation
 from ogilvie.hydro.threads import available_cores
-from ogilvie.mesh.hydrostatics import hydrostatics
 from ogilvie.mesh.panels import PanelMesh
 from ogilvie.units import GRAVITY, SEA_WATER
 
-Array = NDArray[np.float64]
 Moments = Literal["space", "body"]
-
-_AFLOAT = 0.015  # part of the displacement by which a free body's weight may differ from its buoyancy
-_UPRIGHT = 0.005  # part of length and beam by which the centre of gravity may be off that of buoyancy
 
 
 def mean_drift(
@@ -134,7 +130,21 @@ def mean_drift(
     >>> drift.mean_drift.sizes["influenced_dof"], bool(drift.mean_drift.sel(influenced_dof="surge") < 0)  # pushed astern
     (6, True)
     """
-    case = _case(hull, speed, irregular_frequencies, omega=omega, direction=wave_direction, rho=rho, g=g, depth=water_depth)
+    if speed != 0.0:
+        raise InputError(
+            f"mean_drift: speed: 0 expected, {speed!r} m/s found. Added resistance at speed is not part of this method; give "
+            "measured or empirical values in a force table."
+        )
+    case = checked_case(
+        hull,
+        irregular_frequencies,
+        purpose="mean_drift",
+        omega=omega,
+        direction=wave_direction,
+        rho=rho,
+        g=g,
+        depth=water_depth,
+    )
     for name, value, allowed in (
         ("method", method, Method),
         ("rotation", rotation, Rotation),
@@ -153,82 +163,11 @@ def mean_drift(
         workers=workers or available_cores(),
         progress=progress,
     )
-    found = drifts(case, _dynamics(case, body, damping, stiffness), options)
+    found = drifts(case, checked_dynamics(case, body, damping, stiffness, purpose="mean_drift"), options)
     result = as_dataset(case, found, method=method, moments=moments, pairs=pairs)
     result = result.assign_attrs(rotation=rotation, waterline=waterline, body="fixed" if body is None else body.name)
     _warn_of_flags(result, method)
     return result
-
-
-def _case(
-    hull: PanelMesh,
-    speed: float,
-    irregular: Irregular,
-    *,
-    omega: ArrayLike,
-    direction: ArrayLike,
-    rho: float,
-    g: float,
-    depth: float,
-) -> Case:
-    if speed != 0.0:
-        raise InputError(
-            f"mean_drift: speed: 0 expected, {speed!r} m/s found. Added resistance at speed is not part of this method; give "
-            "measured or empirical values in a force table."
-        )
-    if not isinstance(hull, PanelMesh):
-        raise InputError(f"mean_drift: hull: a PanelMesh expected, {type(hull).__name__} found. Read one with load_mesh.")
-    try:
-        case = make_case(
-            hull,
-            omega=omega,
-            wave_direction=direction,
-            rho=rho,
-            g=g,
-            water_depth=depth,
-            speed=0.0,
-            irregular_frequencies=irregular,
-        )
-    except InputError as e:
-        raise InputError(str(e).replace("solve_bem", "mean_drift")) from None
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        warn_if_coarse(case)
-    for warning in caught:
-        warnings.warn(str(warning.message).replace("solve_bem", "mean_drift"), OgilvieWarning, stacklevel=3)
-    return case
-
-
-def _dynamics(case: Case, body: RigidBody | None, damping: ArrayLike | None, stiffness: ArrayLike | None) -> Dynamics | None:
-    external = [_matrix(damping, "damping"), _matrix(stiffness, "stiffness")]
-    if body is None:
-        if damping is not None or stiffness is not None:
-            raise InputError("mean_drift: damping and stiffness act on a body that moves: body expected, none found.")
-        return None
-    if not isinstance(body, RigidBody):
-        raise InputError(f"mean_drift: body: a RigidBody or None (fixed) expected, {type(body).__name__} found.")
-    water = hydrostatics(case.panels.hull, body=body, rho=case.rho, g=case.g)
-    excess = body.mass / (case.rho * water.volume) - 1.0
-    offset = np.abs(body.cog - water.center_of_buoyancy)[:2] / [case.panels.hull.length, case.panels.hull.beam]
-    if abs(excess) > _AFLOAT or np.any(offset > _UPRIGHT):
-        arm = (body.cog - water.center_of_buoyancy)[:2].round(3).tolist()
-        warnings.warn(
-            f"mean_drift: a body that floats at rest expected; its mass is {100 * excess:+.1f} % off the displacement, its "
-            f"centre of gravity {arm} m (x, y) off that of buoyancy. Energy is not conserved then. Use RigidBody.from_hull, "
-            "or another draught and trim.",
-            OgilvieWarning,
-            stacklevel=3,
-        )
-    return Dynamics(body.matrix, water.stiffness, *external)
-
-
-def _matrix(value: ArrayLike | None, name: str) -> Array:
-    if value is None:
-        return np.zeros((6, 6))
-    M = np.asarray(value, dtype=float)
-    if M.shape != (6, 6) or not np.all(np.isfinite(M)):
-        raise InputError(f"mean_drift: {name}: a finite (6, 6) matrix about O expected, shape {M.shape} found.")
-    return M
 
 
 def _warn_of_flags(result: xr.Dataset, method: Method) -> None:

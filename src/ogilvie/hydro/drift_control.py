@@ -6,21 +6,52 @@
 C is the control surface and S the still water between it and the hull, n out of the water there; the loops run along the
 waterline. The moment has x x n, x x grad phi and x x (dX/dt x dl). No velocity on the hull appears: its integrals turn into the
 loop by Gauss's and Stokes's theorems, so sharp edges do no harm (docs/theory/drift.md). On S phi_z = K phi, and the horizontal
-force and the yaw moment of S are loops too.
+force and the yaw moment of S are loops too. For two waves of different frequencies two terms are added: the ring's part of the
+horizontal force, and d/dt of the integral of <(X . grad phi) n + phi R x n> over the hull.
 """
+
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ogilvie.hydro.drift_first import FirstOrder, WaterlineRule
 from ogilvie.hydro.drift_forms import EPSILON, integral, with_moment
-from ogilvie.hydro.drift_near import displacement, waterline_force
+from ogilvie.hydro.drift_near import OnHull, displacement, on_hull, strip_force, turned
+from ogilvie.hydro.drift_panels import Waterline, WholeHull
 from ogilvie.hydro.drift_solve import Fields
 from ogilvie.hydro.drift_static import Rotation, static_force
 from ogilvie.hydro.drift_surface import ControlSurface
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+
+
+@dataclass(frozen=True, eq=False)
+class OnSurface:
+    """Potential and velocity of any number of waves at the points of a control surface, part by part.
+
+    Parameters
+    ----------
+    surface : ControlSurface
+    K : (m,) array
+        omega^2/g, 1/m.
+    phi, v : list of (m, n), (m, n, 3) arrays
+        On wall, floor, ring and rim.
+    """
+
+    surface: ControlSurface
+    K: Array
+    phi: list[Complex]
+    v: list[Complex]
+
+
+def on_surface(first: FirstOrder, surface: ControlSurface, fields: Fields) -> OnSurface:
+    """Return the quantities of one frequency, one wave per direction, from the stored potentials at the surface's points."""
+    images = first.hull.panels.images
+    phi, v = first.at(first.hull.copied(surface.points), fields)
+    K = np.full(len(phi), first.wave.K)
+    return OnSurface(surface, K, surface.split(phi, len(images)), surface.split(v, len(images)))
 
 
 def control_drift(
@@ -36,27 +67,38 @@ def control_drift(
         The stored potentials at ``surface.points``.
     rotation, waterline
         As in :func:`ogilvie.hydro.drift_near.near_field`.
+    """
+    waves, outer, w = on_hull(first, waterline), on_surface(first, surface, fields), first.wave
+    terms = control_terms(waves, outer, first.hull, rotation=rotation, rho=w.rho, g=w.g)
+    del terms["rate"]
+    return terms
+
+
+def control_terms(
+    waves: OnHull, outer: OnSurface, hull: WholeHull, *, rotation: Rotation, rho: float, g: float
+) -> dict[str, Complex]:
+    """Return the terms (m, m, 6) for every ordered pair of waves, at the difference of their frequencies.
 
     Returns
     -------
     dict
-        control (through C), surface (on S), loop (moving waterline), static, waterline. Where S is not a plain ring its
-        heave, roll and pitch are NaN.
+        control (through C), surface (on S), loop (moving waterline), static, waterline, rate (what is not steady, zero for
+        equal frequencies). Where S is not a plain ring its heave, roll and pitch are NaN, and all of it for waves of
+        different frequencies.
     """
-    w, hull = first.wave, first.hull
-    images = hull.panels.images
-    phi, v = first.at(hull.copied(surface.points), fields)
-    phis, vs = surface.split(phi, len(images)), surface.split(v, len(images))
+    surface, copies = outer.surface, len(hull.panels.images)
     radial = surface.wall * [1.0, 1.0, 0.0] / surface.radius
-    through = _flux(hull.copied(surface.wall), hull.copied(radial), np.tile(surface.d_wall, len(images)), vs[0])
+    through = _flux(hull.copied(surface.wall), hull.copied(radial), np.tile(surface.d_wall, copies), outer.v[0])
     down = np.broadcast_to([0.0, 0.0, -1.0], surface.floor.shape)
-    through = through + _flux(hull.copied(surface.floor), hull.copied(down), np.tile(surface.d_floor, len(images)), vs[1])
+    through = through + _flux(hull.copied(surface.floor), hull.copied(down), np.tile(surface.d_floor, copies), outer.v[1])
+    at_hull = 1j * g / waves.omega[:, None] * waves.elevation
     return {
-        "control": w.rho * through,
-        "surface": w.rho * _free_surface(first, surface, phis, vs[2], waterline),
-        "loop": -w.rho * _loop(first, waterline),
-        "static": static_force(first.motion, hull.panels.hull.moments, rotation=rotation, rho=w.rho, g=w.g),
-        "waterline": waterline_force(first, waterline),
+        "control": rho * through,
+        "surface": rho * _free_surface(outer, hull, at_hull),
+        "loop": -rho * _loop(waves, hull.waterline, at_hull),
+        "static": static_force(waves.motion, hull.panels.hull.moments, rotation=rotation, rho=rho, g=g),
+        "waterline": strip_force(waves.elevation, waves.motion, hull.waterline, rho * g),
+        "rate": rho * _rate(waves, hull),
     }
 
 
@@ -70,33 +112,51 @@ def _flux(x: Array, n: Array, d: Array, v: Complex) -> Complex:
     return np.asarray(out - np.stack(part, axis=-1))
 
 
-def _free_surface(
-    first: FirstOrder, surface: ControlSurface, phis: list[Complex], v: Complex, waterline: WaterlineRule
-) -> Complex:
-    """Return the part of the still water (n_b, n_b, 6): loops for surge, sway, yaw, the ring for heave, roll, pitch."""
-    K, hull = first.wave.K, first.hull
-    line, copies = hull.waterline, len(hull.panels.images)
+def _free_surface(outer: OnSurface, hull: WholeHull, at_hull: Complex) -> Complex:
+    """Return the part of the still water (m, m, 6): loops for surge, sway, yaw, the ring for heave, roll, pitch.
+
+    With K = K_mean + K_half and K_mean - K_half of two waves, -<grad phi phi_z> is -K_mean grad <phi^2>/2, which makes the
+    loops, less K_half (phi_m grad phi_n* - phi_n* grad phi_m)/4 over the ring.
+    """
+    K, surface, line, copies = outer.K, outer.surface, hull.waterline, len(hull.panels.images)
+    mean, half = 0.5 * (K[:, None] + K[None]), 0.5 * (K[:, None] - K[None])
     rim = hull.copied(surface.rim)
     outward = with_moment(rim, rim / surface.radius * np.tile(surface.d_rim, copies)[:, None])
     inner = with_moment(line.middle, line.normal * [1.0, 1.0, 0.0] * line.length[:, None])
-    at_hull = first.at_waterline(waterline)
-    out = -0.5 * K * (integral(phis[3], phis[3], outward) - integral(at_hull, at_hull, inner))
+    out = -0.5 * mean[..., None] * (integral(outer.phi[3], outer.phi[3], outward) - integral(at_hull, at_hull, inner))
     out[..., 2:5] = np.nan
-    if surface.ring_is_whole:
-        x = hull.copied(surface.ring)
-        dS = np.stack([np.ones(len(x)), x[:, 1], -x[:, 0]], axis=1) * np.tile(surface.d_ring, copies)[:, None]
-        along = integral(v[..., 0], v[..., 0], dS) + integral(v[..., 1], v[..., 1], dS)
-        out[..., 2:5] = 0.5 * (along - K**2 * integral(phis[2], phis[2], dS))
-    return out
+    if not surface.ring_is_whole:
+        out[half != 0.0] = np.nan
+        return np.asarray(out)
+    x, phi, v = hull.copied(surface.ring), outer.phi[2], outer.v[2]
+    dS = np.stack([np.ones(len(x)), x[:, 1], -x[:, 0]], axis=1) * np.tile(surface.d_ring, copies)[:, None]
+    along = integral(v[..., 0], v[..., 0], dS) + integral(v[..., 1], v[..., 1], dS)
+    rise = K[:, None] * phi
+    out[..., 2:5] = 0.5 * (along - integral(rise, rise, dS))
+    if np.any(half != 0.0):
+        turning = x[:, 0] * v[..., 1] - x[:, 1] * v[..., 0]
+        for i, part in ((0, v[..., 0]), (1, v[..., 1]), (5, turning)):
+            product = (phi * dS[:, 0]) @ part.conj().T
+            out[..., i] -= 0.25 * half * (product - product.conj().T)
+    return np.asarray(out)
 
 
-def _loop(first: FirstOrder, rule: WaterlineRule) -> Complex:
-    """Return oint <phi (dX/dt x dl)> and oint <phi x x (dX/dt x dl)> (n_b, n_b, 6)."""
-    line = first.hull.waterline
-    phi, speed = first.at_waterline(rule), 1j * first.wave.omega * displacement(first.motion, line.middle)
+def _rate(waves: OnHull, hull: WholeHull) -> Complex:
+    """Return d/dt of the integral of <(X . grad phi) n + phi R x n> and its moment (m, m, 6)."""
+    change = 1j * (waves.omega[:, None] - waves.omega[None])
+    if not np.any(change != 0.0):
+        return np.zeros((*change.shape, 6), dtype=complex)
+    dS = with_moment(hull.centers, hull.normals * hull.areas[:, None])
+    X, v = displacement(waves.motion, hull.centers), waves.velocity
+    shifted = np.sum([integral(X[..., i], v[..., i], dS) for i in range(3)], axis=0)
+    return np.asarray(change[..., None] * (shifted + turned(waves.motion, waves.loads / (1j * waves.omega[:, None]))))
+
+
+def _loop(waves: OnHull, line: Waterline, phi: Complex) -> Complex:
+    """Return oint <phi (dX/dt x dl)> and oint <phi x x (dX/dt x dl)> (m, m, 6)."""
+    speed = 1j * waves.omega[:, None, None] * displacement(waves.motion, line.middle)
     force = sum(EPSILON[:, j, k] * integral(phi, speed[..., j], line.tangent[:, k : k + 1]) for j in range(3) for k in range(3))
-    n_b = len(phi)
-    moment = np.zeros((n_b, n_b, 3), dtype=complex)
+    moment = np.zeros((len(phi), len(phi), 3), dtype=complex)
     for j in range(3):
         for k in range(3):
             arms = np.einsum("ial,l,na->ni", EPSILON, EPSILON[:, j, k], line.middle) * line.tangent[:, k : k + 1]

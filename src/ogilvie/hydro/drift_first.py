@@ -116,7 +116,7 @@ class FirstOrder:
         Z = -(w**2) * (d.mass + A) + 1j * w * (B + d.external_damping) + d.stiffness + d.external_stiffness
         size = np.sqrt(np.abs(np.diag(Z)))
         if not np.all(size > 0.0):
-            raise ConvergenceError(f"mean_drift: nothing holds the body at {w:.4g} rad/s; leave this frequency out.")
+            raise ConvergenceError(f"second-order forces: nothing holds the body at {w:.4g} rad/s; leave this frequency out.")
         return np.asarray(np.linalg.solve(Z / np.outer(size, size), (self.excitation / size).T).T / size)
 
     @cached_property

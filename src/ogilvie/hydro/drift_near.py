@@ -1,21 +1,67 @@
-"""Mean drift by integration of the pressure over the hull (near field): all six components, term by term (kernel).
+"""Forces of second order by integration of the pressure over the hull (near field): all six components, term by term (kernel).
 
     F = -int [ <p2> n + <p1 (R x n)> + p0 <H> n ] dS - rho g/2 oint <zeta_r^2> n (1 - n_z^2)^(-1/2) dl
     p0 = -rho g z,  p1 = -rho (phi_t + g X_z),  p2 = -rho [ |grad phi|^2/2 + X . grad phi_t + g (H x)_z ]
 
 with n into the fluid, X = T + R x x, zeta_r = eta - X_z; the moment about the fixed mean origin has x x n in place of n and
-T x n + R x (x x n) in place of R x n (docs/theory/drift.md).
+T x n + R x (x x n) in place of R x n (docs/theory/drift.md). The same forms hold
+for two waves of different frequencies, where they are the slowly varying force without the potential of second order.
 """
+
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ogilvie.hydro.drift_first import FirstOrder, WaterlineRule
 from ogilvie.hydro.drift_forms import cross_mean, integral, with_moment
+from ogilvie.hydro.drift_panels import Waterline, WholeHull
 from ogilvie.hydro.drift_static import Rotation, static_force
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+
+
+@dataclass(frozen=True, eq=False)
+class OnHull:
+    """What the near field takes from the first order, for any number of waves of any frequencies and directions.
+
+    Parameters
+    ----------
+    omega : (m,) array
+        rad/s.
+    motion : (m, 6) array
+        Motion of O per metre of amplitude.
+    velocity : (m, n, 3) array
+        Of the water at the panels' centres.
+    loads : (m, 6) array
+        Integral of phi_t (n, x x n) dS.
+    elevation : (m, n_l) array
+        At the middles of the waterline's edges.
+    force : (m, 3) array
+        First-order force of the water.
+    """
+
+    omega: Array
+    motion: Complex
+    velocity: Complex
+    loads: Complex
+    elevation: Complex
+    force: Complex
+
+
+def on_hull(first: FirstOrder, rule: WaterlineRule) -> OnHull:
+    """Return the quantities of one frequency, one wave per direction."""
+    w, hull = first.wave, first.hull
+    dS = with_moment(hull.centers, hull.normals * hull.areas[:, None])
+    return OnHull(
+        omega=np.full(len(w.directions), w.omega),
+        motion=first.motion,
+        velocity=first.velocity,
+        loads=1j * w.omega * first.potential @ dS,
+        elevation=-1j * w.omega / w.g * first.at_waterline(rule),
+        force=first.pressure_force,
+    )
 
 
 def near_field(first: FirstOrder, *, rotation: Rotation, waterline: WaterlineRule) -> dict[str, Complex]:
@@ -26,6 +72,12 @@ def near_field(first: FirstOrder, *, rotation: Rotation, waterline: WaterlineRul
     first : FirstOrder
     rotation : {"ZYX", "XYZ"}
     waterline : {"edge", "centre"}
+    """
+    return near_terms(on_hull(first, waterline), first.hull, rotation=rotation, rho=first.wave.rho, g=first.wave.g)
+
+
+def near_terms(waves: OnHull, hull: WholeHull, *, rotation: Rotation, rho: float, g: float) -> dict[str, Complex]:
+    """Return the terms (m, m, 6) for every ordered pair of waves, at the difference of their frequencies.
 
     Returns
     -------
@@ -33,30 +85,34 @@ def near_field(first: FirstOrder, *, rotation: Rotation, waterline: WaterlineRul
         waterline, velocity (|grad phi|^2), displacement (X . grad phi_t), rotation (first-order pressure on a turned hull),
         static (still water on the motions of second order).
     """
-    w, hull = first.wave, first.hull
     dS = with_moment(hull.centers, hull.normals * hull.areas[:, None])
-    v = first.velocity
-    X = displacement(first.motion, hull.centers)
+    v, rate = waves.velocity, 1j * waves.omega[:, None]
+    X = displacement(waves.motion, hull.centers)
     velocity = np.sum([integral(v[..., i], v[..., i], dS) for i in range(3)], axis=0)
-    shifted = np.sum([integral(X[..., i], 1j * w.omega * v[..., i], dS) for i in range(3)], axis=0)
+    shifted = np.sum([integral(X[..., i], rate * v[..., i], dS) for i in range(3)], axis=0)
     return {
-        "waterline": waterline_force(first, waterline),
-        "velocity": 0.5 * w.rho * velocity,
-        "displacement": w.rho * shifted,
-        "rotation": w.rho * _turned(first.motion, 1j * w.omega * first.potential @ dS),
-        "static": static_force(first.motion, hull.panels.hull.moments, rotation=rotation, rho=w.rho, g=w.g),
+        "waterline": strip_force(waves.elevation, waves.motion, hull.waterline, rho * g),
+        "velocity": 0.5 * rho * velocity,
+        "displacement": rho * shifted,
+        "rotation": rho * turned(waves.motion, waves.loads),
+        "static": static_force(waves.motion, hull.panels.hull.moments, rotation=rotation, rho=rho, g=g),
     }
 
 
 def waterline_force(first: FirstOrder, rule: WaterlineRule) -> Complex:
     """Return -rho g/2 oint <zeta_r^2> n/(1 - n_z^2)^(1/2) dl and its moment (n_b, n_b, 6)."""
-    w, line = first.wave, first.hull.waterline
-    if len(line.owner) == 0:
-        return np.zeros((len(w.directions),) * 2 + (6,), dtype=complex)
+    w = first.wave
     eta = -1j * w.omega / w.g * first.at_waterline(rule)
-    relative = eta - displacement(first.motion, line.middle)[..., 2]
+    return strip_force(eta, first.motion, first.hull.waterline, w.rho * w.g)
+
+
+def strip_force(eta: Complex, motion: Complex, line: Waterline, unit: float) -> Complex:
+    """Return the force (m, m, 6) on the wetted strip from elevations (m, n_l) and motions; `unit` is rho g."""
+    if len(line.owner) == 0:
+        return np.zeros((len(motion),) * 2 + (6,), dtype=complex)
+    relative = eta - displacement(motion, line.middle)[..., 2]
     dl = with_moment(line.middle, line.normal * line.length[:, None])
-    return np.asarray(-0.5 * w.rho * w.g * integral(relative, relative, dl))
+    return np.asarray(-0.5 * unit * integral(relative, relative, dl))
 
 
 def displacement(motion: Complex, x: Array) -> Complex:
@@ -64,7 +120,7 @@ def displacement(motion: Complex, x: Array) -> Complex:
     return np.asarray(motion[:, None, :3] + np.cross(motion[:, None, 3:], x[None]))
 
 
-def _turned(motion: Complex, loads: Complex) -> Complex:
+def turned(motion: Complex, loads: Complex) -> Complex:
     """Return <R x P>, <T x P + R x Q> of first-order loads (P, Q) = integral of phi_t (n, x x n) dS, (n_b, 6)."""
     T, R, P, Q = motion[:, :3], motion[:, 3:], loads[:, :3], loads[:, 3:]
     return np.concatenate([cross_mean(R, P), cross_mean(T, P) + cross_mean(R, Q)], axis=-1)

@@ -74,16 +74,11 @@ class Drift:
 
 def drifts(case: Case, dynamics: Dynamics | None, options: Options) -> list[Drift]:
     """Return the drift at every frequency of a case."""
-    _refuse_too_large(case)
-    hull, store = WholeHull(case.panels), None
-    if options.cache:
-        store = FieldStore(case.panels, case.depth, settings=f"drift {REVISION}; {green_settings()}")
-    solver = _Solver(case, hull, store, options.workers)
-    slopes = find_slopes(hull)
-    out = []
+    solver = Solver(case, cache=options.cache, workers=options.workers)
+    hull, out = solver.hull, []
     for i in tracked(range(len(case.omega)), show=options.progress, title=f"drift of {case.panels.hull.name}"):
-        wave = Wave(float(case.omega[i]), float(case.k[i]), case.direction, case.depth, case.rho, case.g)
-        first = FirstOrder(wave, hull, slopes, solver.at_hull(wave), dynamics)
+        first = solver.first_order(float(case.omega[i]), float(case.k[i]), dynamics)
+        wave = first.wave
         terms: dict[str, Complex] = {}
         if options.control:
             surface = control_surface(hull, k=wave.k, depth=wave.depth)
@@ -96,19 +91,50 @@ def drifts(case: Case, dynamics: Dynamics | None, options: Options) -> list[Drif
                 near, terms, far_field(first), shift, first.motion, _flux(first), wave.k / wave.omega, case.panels.hull.length
             )
         )
-    if store:
-        store.finish()
+    solver.finish()
     return out
 
 
-class _Solver:
-    """Solves what the store does not have; the Green function and the corrections are made when first needed."""
+class Solver:
+    """Solves what the store does not have; the Green function and the corrections are made when first needed.
 
-    def __init__(self, case: Case, hull: WholeHull, store: FieldStore | None, workers: int) -> None:
-        self._case, self._hull, self._store, self._workers = case, hull, store, workers
+    Parameters
+    ----------
+    case : Case
+    cache : bool
+        Keep the fields on disk.
+    workers : int
+        Threads.
+
+    Raises
+    ------
+    InputError
+        The panels' matrices do not fit into memory.
+    """
+
+    def __init__(self, case: Case, *, cache: bool, workers: int) -> None:
+        _refuse_too_large(case)
+        self.hull = WholeHull(case.panels)
+        self._case, self._workers = case, workers
+        self._store: FieldStore | None = None
+        if cache:
+            self._store = FieldStore(case.panels, case.depth, settings=f"drift {REVISION}; {green_settings()}")
+        self._slopes = find_slopes(self.hull)
         self._ready: tuple | None = None
 
+    def first_order(self, omega: float, k: float, dynamics: Dynamics | None) -> FirstOrder:
+        """Return the first-order solution at one frequency (rad/s; k in rad/m) for all directions of the case."""
+        c = self._case
+        wave = Wave(omega, k, c.direction, c.depth, c.rho, c.g)
+        return FirstOrder(wave, self.hull, self._slopes, self.at_hull(wave), dynamics)
+
+    def finish(self) -> None:
+        """Leave the store in order."""
+        if self._store:
+            self._store.finish()
+
     def at_hull(self, wave: Wave) -> Fields:
+        """Return the fields at the hull's panels."""
         kept = self._load(wave, "hull")
         missing = [i for i, field in enumerate(kept) if field is None]
         if missing:
@@ -126,8 +152,9 @@ class _Solver:
             self._save(wave, kept, "hull")
         return joined([field for field in kept if field is not None])
 
-    def at_surface(self, wave: Wave, surface: ControlSurface, hull_fields: Fields) -> Fields:
-        kept = self._load(wave, "control")
+    def at_surface(self, wave: Wave, surface: ControlSurface, hull_fields: Fields, *, where: str = "control") -> Fields:
+        """Return the fields at a control surface; `where` names it in the store."""
+        kept = self._load(wave, where)
         if any(field is None or field.potential.shape[2] != len(surface.points) for field in kept):
             green, _ = self._tools()
             panels = self._case.panels
@@ -135,7 +162,7 @@ class _Solver:
             with frequency_threads(self._case, self._workers):
                 found = fields_at(panels, sources, hull_fields.sources, surface.points)
             kept = list(split(Fields(np.zeros((len(found.potential), 0), dtype=complex), found.potential, found.velocity)))
-            self._save(wave, kept, "control")
+            self._save(wave, kept, where)
         return joined([field for field in kept if field is not None])
 
     def _tools(self) -> tuple:
@@ -144,7 +171,7 @@ class _Solver:
             bare = panels.without_lid
             lid = np.zeros((0, 3)) if panels.lid is None else panels.lid.centers
             curvature = flux_correction(bare, source_influence(green, bare.facets, 0.0, np.inf))
-            damping = lid_damping(lid, self._hull.waterline.middle)
+            damping = lid_damping(lid, self.hull.waterline.middle)
             self._ready = green, Corrections(curvature, damping)
         return self._ready
 
@@ -181,6 +208,7 @@ def _refuse_too_large(case: Case) -> None:
         return
     if needed > memory:
         raise InputError(
-            f"mean_drift: a mesh that fits into {memory / 1e9:.3g} GB of memory expected, {n} stored panels found, which need "
-            f"{needed / 1e9:.3g} GB. Use a coarser mesh, or store the hull with its symmetry: hull.with_symmetry('xz')."
+            f"second-order forces: a mesh that fits into {memory / 1e9:.3g} GB of memory expected, {n} stored panels found, "
+            f"which need {needed / 1e9:.3g} GB. Use a coarser mesh, or store the hull with its symmetry: "
+            "hull.with_symmetry('xz')."
         )

@@ -109,7 +109,7 @@ def solve_sources(
     copies = [sources(panels.facets.centers, image) for image in panels.images]
     if not all(np.all(np.isfinite(S)) and np.all(np.isfinite(G)) for S, G in copies):
         raise ConvergenceError(
-            "mean_drift: the influence matrices hold NaN or infinite numbers. Panels may overlap or have no area; "
+            "second-order forces: the influence matrices hold NaN or infinite numbers. Panels may overlap or have no area; "
             "look at the mesh with ogilvie.mesh.inspect.check_mesh."
         )
     n_f, n_par = velocity.shape[:2]
