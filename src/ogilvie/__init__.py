@@ -93,6 +93,7 @@ _PUBLIC = {
     "ochi_hubble": "waves.spectra",
     "pierson_moskowitz": "waves.spectra",
     "plot": "post.plot:",
+    "qtf": "hydro.drift_qtf",
     "rao": "hydro.rao",
     "read_hydro": "hydro.files",
     "regular": "waves.sea",
