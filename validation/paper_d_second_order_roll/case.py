@@ -58,7 +58,7 @@ def run(shared: Path | None) -> tuple[list[dict[str, Any]], dict[str, Any]]:
     model = og.identify(K, mass=ship.body.matrix, stiffness=ship.hydro.hydrostatic_stiffness.values)
     case = {"ship": ship, "radiation": og.StateSpaceRadiation(model), "loads": {k: og.SlowDrift(ship.slow, k) for k in D.FORMS}}
     vessel = D.moored(ship, case["radiation"], drift=ARITHMETIC)
-    case["period"], case["ratio"] = D.roll_damping(vessel, ship)
+    case["period"], case["ratio"] = D.roll_damping(vessel)
     pair = _pair(case)
     storm = _storm(case)
     return [*_table(case), *pair["checks"], *storm["checks"]], {"pair": pair, "storm": storm, "case": case}
@@ -104,7 +104,7 @@ def _pair(case: dict[str, Any]) -> dict[str, Any]:
         vessel = D.moored(case["ship"], case["radiation"], drift=ARITHMETIC, roll=damping)
         runs[name] = og.simulate(vessel, sea, duration=WINDOW, dt=DT, variables=("eta",))
         roll = runs[name].eta.sel(dof="roll").values
-        period, ratio = D.roll_damping(vessel, case["ship"])
+        period, ratio = D.roll_damping(vessel)
         w0 = 2 * np.pi / period
         Q = case["loads"][ARITHMETIC].qtf([w1], [w2], D.BEAM)[0]
         wanted = abs(D.roll_of_force(vessel, np.array([w1 - w2]))[0] @ Q) * 2 * a1 * a2
@@ -196,7 +196,7 @@ def _storm(case: dict[str, Any]) -> dict[str, Any]:
         vessel = D.moored(ship, case["radiation"], drift=ARITHMETIC, roll=damping)
         runs[name] = og.simulate(vessel, sea, duration=LONG, dt=DT, variables=("eta",))
         wanted, found = D.expected(vessel, slow, sea), _std(runs[name], SETTLED, LONG)
-        ratio = D.roll_damping(vessel, ship)[1]
+        ratio = D.roll_damping(vessel)[1]
         plain = D.expected(D.moored(ship, case["radiation"], roll=damping), slow, sea).first
         checks.append(
             _check(f"storm, {name}: roll std / transfer functions", found / wanted.both, 1.0, 0.1, "", THEORY,
@@ -223,7 +223,7 @@ def _bare(case: dict[str, Any], sea: Any, start: float) -> float:
 
 def _grown(vessel: Any, slow: Any, sea: Any, t: float, ship: Any) -> float:
     """Return the mean square of roll about zero at t after a start without slow motion."""
-    found = D.expected(vessel, slow, sea, since=t, pole=D.roll_damping(vessel, ship))
+    found = D.expected(vessel, slow, sea, since=t, pole=D.roll_damping(vessel))
     return found.both**2
 
 

@@ -133,11 +133,27 @@ def expected(vessel: Any, slow: Any, sea: Any, *, since: float = np.inf, pole: t
     return Expected(float(mean), *(float(np.sqrt(0.5 * np.sum(np.abs(x) ** 2))) for x in (first, second)))
 
 
-def roll_damping(vessel: Any, ship: Ship) -> tuple[float, float]:
-    """Return natural period (s) and damping ratio of roll from the complex root of 1/H_44 near the resonance."""
-    w = 2 * np.pi / PERIOD + np.linspace(-0.03, 0.03, 601)
-    Y = 1.0 / roll_of_force(vessel, w)[:, ROLL]  # close to C - w2 I + i w B
-    at = int(np.argmin(np.abs(Y.real)))
-    w0 = float(np.interp(0.0, -Y.real[max(0, at - 3) : at + 4], w[max(0, at - 3) : at + 4]))
-    slope = -np.gradient(Y.real, w)[at]
-    return 2 * np.pi / w0, float(np.interp(w0, w, Y.imag) / (slope * w0))
+NEAR = 2 * np.pi / PERIOD + np.linspace(-0.03, 0.03, 601)  # rad/s
+
+
+def roll_damping(vessel: Any) -> tuple[float, float]:
+    """Return natural period (s) and damping ratio of roll, sway and yaw moving with it, from 1/H_44 near the resonance."""
+    return _resonance(1.0 / roll_of_force(vessel, NEAR)[:, ROLL])
+
+
+def roll_damping_of_data(vessel: Any, ship: Ship) -> tuple[float, float]:
+    """Return the same with added mass and damping interpolated between the data in place of the vessel's memory."""
+    system = assemble(vessel)
+    at = ship.hydro[["added_mass", "radiation_damping"]].interp(omega=NEAR, method="cubic")
+    s = 1j * NEAR[:, None, None]
+    inner = s * (ship.body.matrix + at.added_mass.values) + at.radiation_damping.values + system.damping
+    return _resonance(1.0 / np.linalg.inv(inner * s + system.stiffness)[:, ROLL, ROLL])
+
+
+def _resonance(Y: np.ndarray) -> tuple[float, float]:
+    """Return period and damping ratio of Y = C - w^2 I + i w B at the frequencies NEAR."""
+    k = int(np.argmin(np.abs(Y.real)))
+    few = slice(k - 3, k + 4)
+    w0 = float(np.interp(0.0, -Y.real[few], NEAR[few]))
+    slope = -np.gradient(Y.real, NEAR)[k]
+    return 2 * np.pi / w0, float(np.interp(w0, NEAR, Y.imag) / (slope * w0))
