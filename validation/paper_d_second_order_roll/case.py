@@ -26,24 +26,25 @@ def _ship() -> ModuleType:
 D = _ship()
 
 TITLE = "Second-order roll of KVLCC2 in beam seas (Somayajula and Falzarano 2016)"
-ABOUT = """Somayajula and Falzarano (2016), Ocean Systems Engineering: GM 5.703 m, roll period 21.02 s, outside the waves but
-among their differences. KG is chosen for the GM and kxx for the period, with sway and yaw free to follow; the paper gives KG,
-no kxx. Mean drift by pressure integration, moments about the O that moves with the body; the paper names neither point nor
+ABOUT = """\
+Somayajula and Falzarano (2016), Ocean Systems Engineering: GM 5.703 m, roll period 21.02 s, outside the waves but among
+their differences. KG is chosen for the GM and kxx for the period, with sway and yaw free to follow; the paper gives KG, no
+kxx. Mean drift by pressure integration, moments about the O that moves with the body; the paper names neither point nor
 axes. Long-crested waves of 0.4 to 1.3 rad/s (the 720 panels of half the hull resolve 1.2), soft mooring (250 s), no viscous
-damping, as in the paper. **Its moments and motions are figures without numbers**; compared are its table, what its text says
-(the three Newman forms are almost the same; roll is small without and far larger with the second order), and the time loop
-with transfer functions and closed forms. The paper's first Newman form, D_i alone, is the arithmetic mean in the sum;
-`newman-1974` here takes the drift at the mean frequency. Waves alone damp this roll by 0.06 % of critical: it takes hours to
-settle, would be far beyond small motions then, and in 1000 s still grows; the roll of an undamped run is a matter of its
-length. It is compared with the growth of an oscillator under the forces of all pairs, and run with viscous damping too: that
-measured on the bare hull (SSPA 2018, see `kvlcc2_roll_decay`), its quadratic part by B = sqrt(8/pi) sigma_p B2, and 5 % of
-critical, taken for a hull with bilge keels."""
+damping, as in the paper. **Its moments and motions are figures without numbers**; compared are its table, what its text
+says (the three Newman forms are almost the same; roll is small without and far larger with the second order), and the time
+loop with transfer functions and closed forms. The paper's first Newman form, D_i alone, is the arithmetic mean in the sum;
+`newman-1974` here takes the drift at the mean frequency. Waves alone damp this roll by 0.06 % of critical: it takes hours
+to settle, would be far beyond small motions then, and in 1000 s still grows; the roll of an undamped run is a matter of its
+length. It is compared with the growth of an oscillator under the forces of all pairs (100 realisations tell its rms to
+about 5 %), and run with viscous damping too: that measured on the bare hull (SSPA 2018, see `kvlcc2_roll_decay`), its
+quadratic part by B = sqrt(8/pi) sigma_p B2, and 5 % of critical, taken for a hull with bilge keels."""
 NEEDS = list(D.NEEDS)
 HEIGHT = 8.6
 
 PAIR = {"height": (7.0, 8.0), "period": (7.0, 10.75)}
 WINDOW, LONG, DT = 1000.0, 3600.0, 0.25  # s
-SEEDS, COMPONENTS, SETTLED = range(20), 600, 600.0  # realisations, of each, s
+SEEDS, COMPONENTS, SETTLED = range(100), 600, 600.0  # realisations, of each, s
 LINEAR, QUADRATIC = 156.7e6, 1.9e10  # kg m2/s with that of the waves, kg m2: bare hull, measured
 BILGE = 0.05  # of critical
 PAPER, THEORY = "Somayajula and Falzarano (2016)", "transfer functions"
@@ -185,7 +186,7 @@ def _storm(case: dict[str, Any]) -> dict[str, Any]:
         wanted = np.sqrt(np.mean([growth[s] for s in times]))
         found = _std(runs[ARITHMETIC], 0.0, end)
         checks.append(
-            _check(f"storm, waves only: roll rms in {end:.0f} s / growth of an oscillator", found / wanted, 1.0, 0.2, "",
+            _check(f"storm, waves only: roll rms in {end:.0f} s / growth of an oscillator", found / wanted, 1.0, 0.15, "",
                    THEORY, f"{found / deg:.1f} deg, {found / first:.0f} times the first order's: 'significantly larger'; "
                    f"settled {settled.both / deg:.0f} deg")
         )  # fmt: skip
@@ -199,12 +200,12 @@ def _storm(case: dict[str, Any]) -> dict[str, Any]:
         ratio = D.roll_damping(vessel)[1]
         plain = D.expected(D.moored(ship, case["radiation"], roll=damping), slow, sea).first
         checks.append(
-            _check(f"storm, {name}: roll std / transfer functions", found / wanted.both, 1.0, 0.1, "", THEORY,
+            _check(f"storm, {name}: roll std / transfer functions", found / wanted.both, 1.0, 0.03, "", THEORY,
                    f"{found / deg:.2f} deg, {plain / deg:.2f} without second order; damping {100 * ratio:.1f} % of critical, "
                    f"{len(SEEDS)} seeds of {LONG - SETTLED:.0f} s")
         )  # fmt: skip
         mean = runs[name].eta.sel(dof="roll", time=slice(SETTLED, LONG)).mean() / wanted.mean
-        checks.append(_check(f"storm, {name}: mean heel / sum a2 D", float(mean), 1.0, 0.1, "", THEORY,
+        checks.append(_check(f"storm, {name}: mean heel / sum a2 D", float(mean), 1.0, 0.03, "", THEORY,
                              f"{wanted.mean / deg:.2f} deg"))  # fmt: skip
     return {"checks": checks, "sea": sea, "t": t, "moment": moment, "runs": runs, "growth": growth}
 
