@@ -100,6 +100,11 @@ class RigidBody:
             raise InputError("from_hull: exactly one of kg (above keel) and zg (above still water) expected.")
         keel = float(hull.vertices[:, 2].min())
         z = keel + kg if kg is not None else zg
+        if not hull.volume > 0.0:
+            raise InputError(
+                f"from_hull: a wetted hull with a volume below the still water expected, {hull.volume:.4g} m3 found. "
+                "Put it in the water: hull.immersed(draught=...)."
+            )
         xb, yb, _ = hull.center_of_buoyancy
         return cls.from_gyradii(rho * hull.volume, cog=[xb, yb, z], gyradii=gyradii, name=hull.name)
 

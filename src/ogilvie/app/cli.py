@@ -148,7 +148,10 @@ def identify(
     output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE.npz", help="K(t) and the state space.")] = Path(
         "memory.npz"
     ),
-    r2: Annotated[float, typer.Option("--r2", help="Coefficient of determination that every coupling has to reach.")] = 0.99,
+    r2: Annotated[
+        float,
+        typer.Option("--r2", help="Coefficient of determination that added mass and damping of every coupling have to reach."),
+    ] = 0.99,
     duration: Annotated[float | None, typer.Option("--duration", metavar="S", help="Last time of K, s.")] = None,
     tail: Annotated[
         str, typer.Option("--tail", help="fit, omega-2, omega-3 or none: damping beyond the last frequency.")

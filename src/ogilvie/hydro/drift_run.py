@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 #: Raised whenever the same problem would give other fields than before.
-REVISION = 1
+REVISION = 2
 
 
 @dataclass(frozen=True)

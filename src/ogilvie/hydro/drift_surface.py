@@ -10,8 +10,9 @@ from ogilvie.hydro.drift_panels import WholeHull
 
 Array = NDArray[np.float64]
 
-#: Gauss points in depth, along the bottom's radius, and from the waterline to the wall.
-N_DEPTH, N_BOTTOM, N_RING = 10, 24, 10
+#: Gauss points in depth, along the bottom's radius, and from the waterline to the wall: these grow with the distance from the
+#: sides of a long hull, on which many waves lie.
+N_DEPTH, N_BOTTOM, N_RING, N_FARTHER = 10, 24, 10, 3.0
 _GAP = 0.25  # distance of the wall from the hull, in radii of the hull
 
 
@@ -121,9 +122,9 @@ def _ring(hull: WholeHull, R: float) -> tuple[Array, Array]:
     angle = np.arctan2(cross, np.einsum("ni,ni->n", start, end))
     if np.any(turn <= 0.0) or abs(angle.sum() - seen) > 1e-3 * seen:
         return np.zeros((0, 3)), np.zeros(0)
-    s, ds = _gauss(N_RING, 0.0, 1.0)
-    t, dt = s**2, 2.0 * s * ds
     near = np.sqrt(size2)[:, None]
+    s, ds = _gauss(int(np.ceil(N_RING + N_FARTHER * (R / near.min() - 1.0))), 0.0, 1.0)
+    t, dt = s**2, 2.0 * s * ds
     r = near + t * (R - near)
     area = r * dt * (R - near) * angle[:, None]
     points = np.zeros((*r.shape, 3))

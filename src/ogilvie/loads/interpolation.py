@@ -74,12 +74,13 @@ def is_mirror_symmetric(hydro: xr.Dataset, table: ComplexArray) -> bool:
 
     Notes
     -----
-    No added mass or damping couples surge, heave, pitch with sway, roll, yaw; head and following seas exert no force in sway,
-    roll and yaw; and where a heading and its mirror image are both given, their forces are mirror images.
+    No added mass or damping, where the data hold it, couples surge, heave, pitch with sway, roll, yaw; head and following seas
+    exert no force in sway, roll and yaw; and where a heading and its mirror image are both given, their forces are mirror
+    images.
     """
     dofs = tuple(str(d) for d in hydro.influenced_dof.values)
     coupled = np.abs(_PORT_STARBOARD[:, None] - _PORT_STARBOARD) > 0.5
-    for key in ("added_mass", "radiation_damping"):
+    for key in (k for k in ("added_mass", "radiation_damping") if k in hydro):
         M = np.abs(embed(hydro[key].values, dofs, (1, 2))).max(axis=0)
         scale = np.sqrt(np.outer(np.diag(M), np.diag(M)))
         if np.any(M[coupled] > _SYMMETRIC_WITHIN * np.maximum(scale[coupled], np.finfo(float).tiny)):

@@ -168,7 +168,8 @@ def _waive(block: Block, r2: float, names: tuple[str, ...], notes: list[str]) ->
     else:
         block.motion_limit *= motion
         notes.append(
-            f"motion of {', '.join(names[i] for i in block.dofs)} changes by {block.motion_limit:.2%} under unit forces."
+            f"motion of {', '.join(names[i] for i in block.dofs)}: the aim of {MOTION_TOLERANCE:.2%} under unit forces is not "
+            "quite reached and further states do not help."
         )
 
 

@@ -23,7 +23,8 @@ from ogilvie.sim.scheme import Interval
 Array = NDArray[Any]
 #: What a recorded row holds in its first 18 columns.
 MOTIONS = ("eta", "nu", "acceleration")
-_LARGE = 1e9  # m or rad: beyond this a motion has diverged
+_LARGE = np.full(12, 1e9)  # m, rad: beyond this a motion has diverged
+_FAR = np.r_[np.full(3, 1e6), np.full(3, 1e2), np.full(6, 1e9)]  # the same for small motions
 
 
 @dataclass(eq=False)
@@ -135,21 +136,23 @@ class Run:
     def _check(self, done: int, count: int) -> None:
         """Count the rows of a block as done, up to the first at which a motion has diverged."""
         rows = self._rows(done, count)
-        if np.abs(self.y).max() < _LARGE:  # False for NaN
+        limit = _LARGE if self.engine.large else _FAR
+        if np.all(np.abs(self.y) < limit):  # False for NaN
             self.rows = rows.stop
             return
         good = np.ones(rows.stop - rows.start, dtype=bool)
         for key, values in self.series.items():
             part = np.abs(values[:, rows]).reshape(len(self.y), len(good), -1)
-            good &= (part < (_LARGE if key in ("eta", "nu") else np.inf)).all(axis=(0, 2))
+            most = limit[:6] if key == "eta" else limit[6:] if key == "nu" else np.inf
+            good &= (part < most).all(axis=(0, 2))
         self.rows = rows.start + (good.size if good.all() else int(good.argmin()))
-        bad = np.where(np.isfinite(self.y), np.abs(self.y), np.inf)
+        bad = np.where(np.isfinite(self.y), np.abs(self.y) / limit, np.inf)
         which = int(bad.max(axis=1).argmax())
         why = self._why(which) or "The vessel itself is unstable: check restoring, memory model and damping."
         dof = DOFS[int(bad[which].argmax()) % 6]
         raise ConvergenceError(
-            f"simulate: {dof} diverges after {self.times()[-1:].sum():g} s (beyond {_LARGE:g} m or "
-            f"rad, or not a number). {why} The error's attribute 'result' holds what was computed before."
+            f"simulate: {dof} diverges after {self.times()[-1:].sum():g} s (beyond {limit[0]:g} m or "
+            f"{limit[3]:g} rad, or not a number). {why} The error's attribute 'result' holds what was computed before."
         )
 
     def _why(self, realisation: int) -> str:

@@ -177,9 +177,11 @@ def critical_damping(system: LinearSystem, dof: int, stiffness: Array | None = N
     """Return 2 sqrt(C (M + A(w_n))) of an uncoupled degree of freedom at its natural frequency w_n = sqrt(C / (M + A(w_n)))."""
     C, M = (system.stiffness if stiffness is None else stiffness)[dof, dof], system.mass[dof, dof]
     if C <= 0.0:
+        what = "Give LinearDamping a matrix instead, or add restoring or mooring."
+        if C < 0.0 and DOFS[dof] in ("roll", "pitch"):
+            what = "The vessel would capsize: its metacentric height is negative. Check the height of the centre of gravity."
         raise InputError(
-            f"damping ratio of {DOFS[dof]}: a positive stiffness expected, {C:g} found, so there is no critical damping. "
-            "Give LinearDamping a matrix instead, or add restoring or mooring."
+            f"damping ratio of {DOFS[dof]}: a positive stiffness expected, {C:g} found, so there is no critical damping. {what}"
         )
     total = M
     for _ in range(100):
