@@ -15,7 +15,7 @@ from ogilvie.app.build_control import try_parts
 from ogilvie.app.build_memory import make_memory
 from ogilvie.app.case import Case
 from ogilvie.app.compare import frequency_domain
-from ogilvie.app.console import step
+from ogilvie.app.console import step, warn
 from ogilvie.app.drawing import Painter
 from ogilvie.app.files import collected_warnings, write_bytes, write_memory, write_result, write_text
 from ogilvie.app.weather import weather
@@ -133,6 +133,9 @@ def _prepared(case: Case, place: Workspace, painter: Painter, progress: bool | N
     with step("checks") as tell:
         checks = check(hydro)
         tell(f"{len(checks.findings)} findings" if checks.findings else "no findings")
+    if not checks.ok:
+        failed = sum(f.severity == "error" for f in checks.findings)
+        warn(f"the coefficients fail {failed} of their checks (last section of the report): look before you trust the motions.")
     with step("fluid memory") as tell:
         K, ssm = make_memory(case, hydro, body)
         place.keep(write_memory(place.folder / "memory.npz", K, ssm))
