@@ -294,7 +294,7 @@ def _hull(ax: Any, data: dict[str, Any]) -> None:
     ax.fill_between(at, wave, -20.0, color="#4fb3d9", alpha=0.35, lw=0.0, zorder=2)
     ax.plot(at, wave, color=BLUE, lw=1.2, zorder=3)
     ax.set(xlim=(-130, 130), ylim=(-20, 16), ylabel="z [m]", xlabel="from O along the course [m]")
-    ax.set_title(f"deepest pitch, {theta / deg:+.1f} deg at {t:.0f} s (heights x 2, deck sketched)", fontsize=8.5)
+    ax.set_title(f"deepest pitch, {theta / deg:+.1f} deg at {t:.0f} s (heights x 2)", fontsize=8.5)
 
 
 def _track(ax: Any, data: dict[str, Any]) -> None:
