@@ -88,7 +88,8 @@ def mean_drift(
         * energy_imbalance: wave energy radiated, scattered and damped less that taken from the incident wave, as a part of it
         * difference_pressure, difference_control_surface: distance from the far field, as a part of the largest value over all
           directions at that frequency
-        * flag_energy (imbalance above 2 %), flag_pressure, flag_control_surface (difference above 10 %)
+        * flag_energy (imbalance above 2 %), flag_pressure, flag_control_surface (difference above 10 %),
+          flag_vertical (heave, roll or pitch by near field and control surface more than half apart)
         * motion_rao: the motions
 
         ``hydro.assign(mean_drift=drift.mean_drift)`` puts it into a data set of the same frequencies and directions. The

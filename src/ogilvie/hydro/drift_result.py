@@ -16,8 +16,8 @@ Complex = NDArray[np.complex128]
 Method = Literal["auto", "near", "far", "control_surface"]
 
 #: Beyond these energy and methods are flagged.
-ENERGY_LIMIT, METHOD_LIMIT = 0.02, 0.10
-_HORIZONTAL = [0, 1, 5]
+ENERGY_LIMIT, METHOD_LIMIT, VERTICAL_LIMIT = 0.02, 0.10, 0.5
+_HORIZONTAL, _VERTICAL = [0, 1, 5], [2, 3, 4]
 _SMALL = 0.1  # of a dof's largest value at all frequencies: less than this is measured against this
 _PART = 0.05  # of the largest horizontal force at that frequency (in yaw times the length): the same
 _LITTLE_PUSH = 0.01  # of the momentum of the incident waves over the hull's breadth (in yaw times the length): the same
@@ -109,7 +109,21 @@ def _quality(full: dict[str, Complex], found: Sequence[Drift]) -> xr.Dataset:
             difference = np.abs(_alone(full[name]) - far) / scale_of
             out[f"difference_{name}"] = (_DIMS, difference)
             out[f"flag_{name}"] = (two, (difference[..., _HORIZONTAL] > METHOD_LIMIT).any(axis=-1))
+    if {"pressure", "control_surface"} <= set(full):
+        apart = _apart(_alone(full["pressure"])[..., _VERTICAL], _alone(full["control_surface"])[..., _VERTICAL])
+        out["flag_vertical"] = (two, (apart > VERTICAL_LIMIT).any(axis=-1))
     return xr.Dataset(out)
+
+
+def _apart(near: Array, control: Array) -> Array:
+    """Return how far two methods are apart in heave, roll, pitch (n_w, n_b, 3), of the larger one's size at that frequency.
+
+    No less than a part of its largest value at all frequencies: the far field says nothing of these, so neither is confirmed
+    where they are far apart.
+    """
+    size = np.maximum(np.abs(near), np.abs(control)).max(axis=1, keepdims=True)
+    least = _SMALL * size.max(axis=0, keepdims=True)
+    return np.abs(near - control) / np.maximum(np.maximum(size, least), np.finfo(float).tiny)
 
 
 def _scales(far: Array, push: Array, length: float) -> Array:
@@ -143,4 +157,9 @@ def _summary(result: xr.Dataset) -> str:
             parts = ", ".join(f"{DOFS[i]} {100 * float(d[..., i].max()):.2g} %" for i in _HORIZONTAL)
             flags = int(result[f"flag_{name}"].sum())
             lines.append(f"{_WORDS[name]} against far field: {parts} at most ({flags} points above {100 * METHOD_LIMIT:.0f} %)")
+    if "flag_vertical" in result and result.flag_vertical.any():
+        lines.append(
+            f"heave, roll or pitch by near field and control surface more than {100 * VERTICAL_LIMIT:.0f} % apart at "
+            f"{int(result.flag_vertical.sum())} of {result.flag_vertical.size} points: neither is confirmed there"
+        )
     return "\n".join(lines)
