@@ -86,13 +86,12 @@ class NumpyLoop:
             X = (1.0 - at + i) * self.turned[i] + (at - i) * self.turned[i + 1]
             waves, turn = (phase @ X).real, R.T @ heading
         drift = R.T @ heading
-        h, P = self.M @ nu, self.A @ nu + self.momentum @ x
+        P = self.A @ nu + self.momentum @ x
         v, w = nu[:3], nu[3:]
         fluid = np.concatenate([np.cross(w, P[:3]), np.cross(w, P[3:]) + np.cross(v, P[:3])])
         force = np.concatenate([turn @ waves[:3], turn @ waves[3:]]) - J.T @ (self.C @ eta)
         force += np.concatenate([drift @ self.drift[k, :3], drift @ self.drift[k, 3:]])
         force -= coriolis_matrix(self.M, nu) @ nu + fluid + self.D @ nu + QUADRATIC @ (np.abs(nu) * nu) + self.c @ x
-        assert len(h) == 6
         return J @ nu, self.inverse @ force, self.a @ x + self.b @ nu
 
     def run(self) -> tuple[float, np.ndarray]:

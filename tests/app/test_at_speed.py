@@ -5,11 +5,12 @@ import pytest
 
 import ogilvie as og
 from ogilvie.app import build, build_run
-from ogilvie.app.build_memory import at_rest, make_memory
+from ogilvie.app.build_memory import make_memory
 from ogilvie.app.case import parse_case
 from ogilvie.app.compare import continued, finer, frequency_domain, under_way
 from ogilvie.app.run import run_case
 from ogilvie.errors import InputError
+from ogilvie.hydro.at_speed import radiation_at_rest
 from ogilvie.sim.system import assemble
 from ogilvie.units import knot
 
@@ -107,7 +108,7 @@ def test_coefficients_solved_at_speed_give_the_memory_of_zero_speed(built):
     other = parse_case(text)
     sailing = build.make_hydro(other, hull, body)
     assert sailing.attrs["speed"] == pytest.approx(6 * knot)
-    assert at_rest(sailing).attrs["speed"] == 0.0
+    assert radiation_at_rest(sailing).attrs["speed"] == 0.0
     K_sailing, _ = make_memory(other, sailing, body)
     size = np.sqrt(np.multiply.outer(*(2 * [np.abs(np.diagonal(K.K[0]))])))
     n = min(len(K.t), len(K_sailing.t), 100)
@@ -132,7 +133,7 @@ def test_continued_coefficients_reach_the_encounter(built):
     assert not np.any(longer.excitation_force.values[26:])
     A_inf, A = hydro.added_mass_inf.values, hydro.added_mass.values[-1]
     expected = A_inf + (A - A_inf) * (2.6 / float(longer.omega[-1])) ** 2
-    np.testing.assert_allclose(np.diag(at_rest(longer).added_mass.values[-1]), np.diag(expected), rtol=1e-6)
+    np.testing.assert_allclose(np.diag(radiation_at_rest(longer).added_mass.values[-1]), np.diag(expected), rtol=1e-6)
 
 
 def test_coefficients_of_another_speed_are_refused(built):

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ogilvie.app.build import make_whole_hull
-from ogilvie.app.build_memory import at_rest
 from ogilvie.app.case import Case
 from ogilvie.app.tables import read_columns
 from ogilvie.errors import InputError
+from ogilvie.hydro.at_speed import radiation_at_rest
 from ogilvie.units import deg, knot
 
 if TYPE_CHECKING:
@@ -121,7 +121,7 @@ def _ikeda(made: Made) -> Any:
     from ogilvie.post.report_tables import natural_periods
 
     i: Any = made.case.damping and made.case.damping.ikeda
-    period = natural_periods(at_rest(made.hydro), made.body).get("roll")
+    period = natural_periods(radiation_at_rest(made.hydro), made.body).get("roll")
     if period is None:
         raise InputError(
             "damping.ikeda: the natural frequency of roll within the coefficients expected, not found. Extend omega_min, "

@@ -13,6 +13,7 @@ from ogilvie.app.files import read_memory, write_memory
 from ogilvie.app.sections import Memory
 from ogilvie.body import RigidBody
 from ogilvie.errors import FormatError, InputError, OgilvieWarning
+from ogilvie.hydro.at_speed import radiation_at_rest
 from ogilvie.hydro.schema import DOFS
 
 if TYPE_CHECKING:
@@ -23,23 +24,12 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-_FORCES = ("excitation_force", "Froude_Krylov_force", "diffraction_force")
-
-
-def at_rest(hydro: "xr.Dataset") -> "xr.Dataset":
-    """Return the radiation data at zero speed: what fluid memory is made from; wave forces are left out of data at speed."""
-    if float(hydro.attrs.get("speed", 0.0)) == 0.0:
-        return hydro
-    from ogilvie.hydro.at_speed import zero_speed_equivalent
-
-    return zero_speed_equivalent(hydro.drop_vars([key for key in _FORCES if key in hydro]))
-
 
 def slow_added_mass(hydro: "xr.Dataset") -> Array:
     """Return the added mass (6, 6) of slow motions about O: that at zero frequency, or at the lowest of the data."""
     from ogilvie.loads.base import embed
 
-    rest = at_rest(hydro)
+    rest = radiation_at_rest(hydro)
     A = rest.added_mass_zero.values if "added_mass_zero" in rest else rest.added_mass.values[0]
     return np.asarray(embed(A, tuple(str(d) for d in rest.influenced_dof.values), (0, 1)))
 
@@ -49,7 +39,7 @@ def make_memory(case: Case, hydro: "xr.Dataset", body: RigidBody) -> "tuple[Reta
 
     The fit knows body and restoring, so that it serves the motions. Results are kept on disk by the content of the problem.
     """
-    m, hydro = case.memory, at_rest(hydro)
+    m, hydro = case.memory, radiation_at_rest(hydro)
     stiffness = mooring_stiffness(case, body, hydro)
     if "hydrostatic_stiffness" in hydro:
         stiffness = stiffness + hydro.hydrostatic_stiffness.values
@@ -96,7 +86,7 @@ def _memory_file(m: Memory, hydro: "xr.Dataset", body: RigidBody, stiffness: Arr
 
 def mooring_stiffness(case: Case, body: RigidBody, hydro: "xr.Dataset") -> Array:
     """Return the (6, 6) stiffness of the springs: as given, or such that a degree of freedom has the natural period given."""
-    k, hydro = np.zeros(6), at_rest(hydro)
+    k, hydro = np.zeros(6), radiation_at_rest(hydro)
     for dof, value in case.loads.mooring_stiffness.given.items():
         k[DOFS.index(dof)] = value
     for dof, period in case.loads.mooring_period.given.items():

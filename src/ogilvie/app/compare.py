@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ogilvie.app.build_memory import at_rest
 from ogilvie.app.build_run import make_spreading
 from ogilvie.app.case import Case
 from ogilvie.errors import InputError, OgilvieWarning
+from ogilvie.hydro.at_speed import radiation_at_rest
 from ogilvie.hydro.schema import DOFS
 
 if TYPE_CHECKING:
@@ -177,7 +177,7 @@ def finer(hydro: "xr.Dataset", *, count: int = 400) -> "xr.Dataset":
 
     w = np.linspace(float(hydro.omega[0]), float(hydro.omega[-1]), count)
     w[0], w[-1] = hydro.omega.values[0], hydro.omega.values[-1]
-    rest, speed = at_rest(hydro), float(hydro.attrs.get("speed", 0.0))
+    rest, speed = radiation_at_rest(hydro), float(hydro.attrs.get("speed", 0.0))
     made = {key: (rest[key].dims, PchipInterpolator(hydro.omega.values, rest[key].values)(w)) for key in _RADIATION}
     made |= {key: (hydro[key].dims, CubicSpline(hydro.omega.values, hydro[key].values)(w)) for key in _FORCES if key in hydro}
     fine = hydro.drop_dims("omega").assign_coords(omega=w).assign(made)

@@ -162,6 +162,13 @@ def zero_speed_equivalent(hydro: xr.Dataset) -> xr.Dataset:
     return validate(changed.assign_attrs({"speed": 0.0, "speed_taken_off": U, **asymmetry}))
 
 
+def radiation_at_rest(hydro: xr.Dataset) -> xr.Dataset:
+    """Return the radiation data at zero speed, of which fluid memory is made; data at speed lose their wave forces."""
+    if float(hydro.attrs.get("speed", 0.0)) == 0.0:
+        return hydro
+    return zero_speed_equivalent(hydro.drop_vars([key for key in ("excitation_force", *_PARTS) if key in hydro]))
+
+
 def _checked(hydro: xr.Dataset, name: str) -> Array:
     """Return L for the degrees of freedom of the data set."""
     if not isinstance(hydro, xr.Dataset):

@@ -116,7 +116,7 @@ def heading_weights(headings: Headings, b: Array, *, derivative: int = 0) -> Arr
         Heading outside the data.
     """
     t = headings.values
-    x = t[0] + np.mod(b - t[0] + _TOLERANCE, TURN) - _TOLERANCE
+    x = _from_first(t, b)
     _refuse_outside(headings, x)
     if headings.periodic:
         from scipy.interpolate import CubicSpline
@@ -136,6 +136,11 @@ def evaluate_turning(omega: Array, headings: Headings, table: ComplexArray, w: A
     return np.einsum("hnb,nbi->hni", across, along)
 
 
+def _from_first(t: Array, b: Any) -> Any:
+    """Return headings b, rad, in the turn that begins at the first of the tabulated ones t."""
+    return t[0] + np.mod(b - t[0] + _TOLERANCE, TURN) - _TOLERANCE
+
+
 def run_of(headings: Headings, b: float) -> tuple[float, float]:
     """Return the ends (rad) of the run of headings, without too wide a gap, in or next to which the heading b lies.
 
@@ -147,7 +152,7 @@ def run_of(headings: Headings, b: float) -> tuple[float, float]:
     t = headings.values
     cuts = np.flatnonzero(np.diff(t) > _WIDEST_GAP + _TOLERANCE)
     starts, ends = t[np.r_[0, cuts + 1]], t[np.r_[cuts, len(t) - 1]]
-    x = t[0] + np.mod(b - t[0] + _TOLERANCE, TURN) - _TOLERANCE
+    x = _from_first(t, b)
     k = int(np.clip(np.searchsorted(starts, x + _TOLERANCE, side="right") - 1, 0, len(starts) - 1))
     return float(starts[k]), float(ends[k])
 
@@ -167,7 +172,7 @@ def vessel_headings(headings: Headings, direction: Array, heading: float) -> tup
         return None
     t, lo, hi = headings.values, -np.inf, np.inf
     for b in direction - heading:
-        x = t[0] + np.mod(b - t[0] + _TOLERANCE, TURN) - _TOLERANCE
+        x = _from_first(t, b)
         start, end = run_of(headings, b)
         lo, hi = max(lo, x - end), min(hi, x - start)
     return heading + lo, heading + hi

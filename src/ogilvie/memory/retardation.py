@@ -171,10 +171,9 @@ def _at_rest(hydro: "xr.Dataset") -> tuple["xr.Dataset", list[str]]:
     speed = float(getattr(hydro, "attrs", {}).get("speed", 0.0))
     if speed == 0.0:
         return hydro, []
-    from ogilvie.hydro.at_speed import zero_speed_equivalent
+    from ogilvie.hydro.at_speed import radiation_at_rest
 
-    forces = [v for v in ("excitation_force", "Froude_Krylov_force", "diffraction_force") if v in hydro]
-    rest = zero_speed_equivalent(hydro.drop_vars(forces))
+    rest = radiation_at_rest(hydro)
     left = max(rest.attrs["asymmetry_added_mass"], rest.attrs["asymmetry_radiation_damping"])
     return rest, [f"the terms of the speed {speed:.4g} m/s are taken off; couplings ij and ji then differ by up to {left:.2%}."]
 
