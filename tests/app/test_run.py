@@ -2,6 +2,7 @@
 
 import os
 import re
+import warnings
 from html.parser import HTMLParser
 
 import numpy as np
@@ -15,6 +16,7 @@ from ogilvie.app.case import parse_case
 from ogilvie.app.cli import app
 from ogilvie.app.files import read_memory, read_result
 from ogilvie.app.run import run_case
+from ogilvie.errors import OgilvieWarning
 from ogilvie.sim.system import assemble
 
 NO_FIGURES = "[output]\nfigures = false\nreport = false\n"
@@ -52,6 +54,15 @@ def test_the_result_knows_its_case(finished, box_text):
     assert run.attrs["case_digest"] == parse_case(box_text).digest
     assert list(run.attrs["seeds"]) == [1, 2]
     assert run.sizes["realisation"] == 2
+
+
+def test_a_short_run_says_that_its_statistics_are_uncertain(finished, box_text):
+    run, case = read_result(finished[0] / "result.nc"), parse_case(box_text)
+    with pytest.warns(OgilvieWarning, match=r"a short run: .*heave.* known to within \d+ % only"):
+        build_run.statistics(case, run)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        build_run.statistics(case, xr.concat([run] * 60, "realisation"))
 
 
 def test_pieces_are_sound(finished):

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+_UNSETTLED = 0.2  # half the confidence interval of a standard deviation, of its value, beyond which a run is called short
+
 
 def make_spectrum(case: Case) -> "Spectrum | None":
     """Return the wave spectrum of a case, or None for regular waves and calm water."""
@@ -201,4 +203,23 @@ def statistics(case: Case, run: "xr.Dataset") -> "xr.Dataset | None":
     found = summary(about_course(run, skip=skip), skip=skip)
     straight = run.attrs.get("motions") == "large" and "surge" in found.dof.values
     about = "the mean course (surge along it, sway to port of it)" if straight else ""
+    if case.sea.spectrum not in ("regular", "calm") and (words := _uncertain(found)):
+        warnings.warn(words, OgilvieWarning)
     return found.assign_attrs(about=about)
+
+
+def _uncertain(found: "xr.Dataset") -> str:
+    """Return a word on motions whose standard deviation the run does not settle, or nothing."""
+    low, high = found.std_interval.values[..., 0], found.std_interval.values[..., 1]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        half_width = 0.5 * (high - low) / found["std"].values
+    moving = found["std"].values > 1e-6
+    poor = [(float(w), str(d)) for w, d, on in zip(half_width, found.dof.values, moving, strict=True) if on and w > _UNSETTLED]
+    if not poor:
+        return ""
+    worst = max(poor)[0]
+    longer = (
+        f"{np.ceil((worst / _UNSETTLED) ** 2):.0f} times the duration or the realisations bring it to {100 * _UNSETTLED:.0f} %"
+    )
+    names = ", ".join(d for _, d in poor)
+    return f"a short run: the standard deviation of {names} is known to within {100 * worst:.0f} % only; about {longer}."

@@ -211,8 +211,9 @@ def simulate_command(path: Path, *, coefficients: Path | None, memory: Path | No
             sea = build_run.make_sea(case, build_run.make_spectrum(case), hydro)
             run = build_run.simulate_case(case, build_run.make_vessel(case, body, hydro, K, ssm, hull=hull), sea)
         write_result(run, output)
+        statistics = build_run.statistics(case, run)
     _tell(notes)
-    print_motions(build_run.statistics(case, run), run=run, skip=build_run.skipped(case))
+    print_motions(statistics, run=run, skip=build_run.skipped(case))
     say(f"written to {output}")
     _stop_if_incomplete(run, f"What had been simulated is in {output}.")
 
