@@ -37,19 +37,29 @@ def is_symmetric(hydro: xr.Dataset) -> bool:
     opposite headings b and -b are mirror images; each within 0.1 % of its scale.
     """
     signs = mirror_signs([str(d) for d in hydro.influenced_dof.values])
+    if signs is None or not matrices_are_symmetric(hydro):
+        return False
+    if "excitation_force" not in hydro:
+        return True
+    return forces_are_symmetric(hydro.wave_direction.values, hydro.excitation_force.values, signs)
+
+
+def matrices_are_symmetric(hydro: xr.Dataset) -> bool:
+    """Tell whether no added mass or damping, where the data hold it, couples surge, heave, pitch with sway, roll, yaw."""
+    signs = mirror_signs([str(d) for d in hydro.influenced_dof.values])
     if signs is None:
         return False
     crossed = signs[:, None] != signs
-    for key in ("added_mass", "radiation_damping"):
+    for key in (k for k in ("added_mass", "radiation_damping") if k in hydro):
         M = np.abs(hydro[key].values).max(axis=0)
         scale = np.sqrt(np.outer(M.diagonal(), M.diagonal()))
         if np.any(M[crossed] > _NEGLIGIBLE * scale[crossed] + np.finfo(float).tiny):
             return False
-    return "excitation_force" not in hydro or _forces_are_symmetric(hydro, signs)
+    return True
 
 
-def _forces_are_symmetric(hydro: xr.Dataset, signs: Array) -> bool:
-    b, X = hydro.wave_direction.values, hydro.excitation_force.values
+def forces_are_symmetric(b: Array, X: NDArray, signs: Array) -> bool:
+    """Tell whether forces X (n_w, n_b, n) of headings b and -b are mirror images, those of 0 and pi their own."""
     size = np.abs(X).max(axis=(0, 1))
     one, two = np.nonzero(np.abs(wrapped(b[:, None] + b)) < _SAME)
     return bool(np.all(np.abs(X[:, one] - X[:, two] * signs) <= 2.0 * _NEGLIGIBLE * size))

@@ -8,12 +8,11 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ogilvie.errors import InputError
-from ogilvie.loads.base import ComplexArray, embed
+from ogilvie.hydro.mirror import TURN, forces_are_symmetric, full_circle, matrices_are_symmetric
+from ogilvie.loads.base import ComplexArray
 
 Array = NDArray[Any]
-TURN = 2.0 * np.pi
 _PORT_STARBOARD = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
-_SYMMETRIC_WITHIN = 1e-3
 _TOLERANCE = 1e-6  # rad
 _WIDEST_GAP = np.pi / 3  # rad; headings further apart are not interpolated between
 
@@ -43,16 +42,9 @@ def symmetric_headings(hydro: xr.Dataset, table: ComplexArray) -> tuple[Headings
     -----
     For a hull that is its own mirror image F(-b) = S F(b) with S = diag(1, -1, 1, -1, 1, -1).
     """
-    b = np.mod(hydro.wave_direction.values.astype(float) + _TOLERANCE, TURN) - _TOLERANCE
-    if is_mirror_symmetric(hydro, table):
-        b = np.concatenate([b, np.mod(-b + _TOLERANCE, TURN) - _TOLERANCE])
-        table = np.concatenate([table, table * _PORT_STARBOARD], axis=1)
-    order = np.argsort(b, kind="stable")
-    b, table = b[order], table[:, order]
-    keep = np.concatenate([[True], np.diff(b) > _TOLERANCE])
-    if len(b) > 1 and b[0] + TURN - b[-1] <= _TOLERANCE:
-        keep[-1] = False
-    return unwrapped(b[keep], table[:, keep])
+    b = hydro.wave_direction.values.astype(float)
+    symmetric = matrices_are_symmetric(hydro) and forces_are_symmetric(b, table, _PORT_STARBOARD)
+    return unwrapped(*full_circle(b, table, _PORT_STARBOARD if symmetric else None))
 
 
 def unwrapped(b: Array, table: ComplexArray) -> tuple[Headings, ComplexArray]:
@@ -67,33 +59,6 @@ def unwrapped(b: Array, table: ComplexArray) -> tuple[Headings, ComplexArray]:
     if turned[0] > np.pi:
         turned = turned - TURN
     return Headings(turned, periodic), np.roll(table, -first, axis=1)
-
-
-def is_mirror_symmetric(hydro: xr.Dataset, table: ComplexArray) -> bool:
-    """Return whether the data are those of a port-starboard symmetric hull.
-
-    Notes
-    -----
-    No added mass or damping, where the data hold it, couples surge, heave, pitch with sway, roll, yaw; head and following seas
-    exert no force in sway, roll and yaw; and where a heading and its mirror image are both given, their forces are mirror
-    images.
-    """
-    dofs = tuple(str(d) for d in hydro.influenced_dof.values)
-    coupled = np.abs(_PORT_STARBOARD[:, None] - _PORT_STARBOARD) > 0.5
-    for key in (k for k in ("added_mass", "radiation_damping") if k in hydro):
-        M = np.abs(embed(hydro[key].values, dofs, (1, 2))).max(axis=0)
-        scale = np.sqrt(np.outer(np.diag(M), np.diag(M)))
-        if np.any(M[coupled] > _SYMMETRIC_WITHIN * np.maximum(scale[coupled], np.finfo(float).tiny)):
-            return False
-    b = hydro.wave_direction.values
-    size = np.abs(table).max(axis=(0, 1))
-    for i in range(len(b)):
-        for j in range(len(b)):
-            mirrored = abs((b[i] + b[j] + np.pi) % TURN - np.pi) < _TOLERANCE
-            difference = np.abs(table[:, i] - table[:, j] * _PORT_STARBOARD).max(axis=0)
-            if mirrored and np.any(difference > 2 * _SYMMETRIC_WITHIN * size):
-                return False
-    return True
 
 
 def evaluate(omega: Array, headings: Headings, table: ComplexArray, w: Array, b: Array) -> ComplexArray:

@@ -186,7 +186,9 @@ def _amplitude_phase(X: "xr.DataArray", dofs: Sequence[str] | None, compare: "xr
         if not ax.has_data():
             ax.remove()
     handles, labels = axes[0, 0].get_legend_handles_labels()
-    fig.legend(handles, labels, loc="outside upper right", ncols=len(picked), title="waves travel towards", title_fontsize=7.5)
+    some = f" ({len(picked)} of {len(directions)} directions)" if len(picked) < len(directions) else ""
+    title = f"waves travel towards{some}"
+    fig.legend(handles, labels, loc="outside upper right", ncols=len(picked), title=title, title_fontsize=7.5)
     return fig
 
 
