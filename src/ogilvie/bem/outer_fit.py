@@ -1,6 +1,5 @@
-"""Oscillators fitted to the outer domain: added one at a time where the error is largest, Levenberg-Marquardt."""
+"""Oscillators fitted to the outer domain: started from its poles and its radiated waves, then Levenberg-Marquardt."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -9,99 +8,89 @@ import scipy.linalg
 from numpy.typing import NDArray
 
 from ogilvie.bem.outer_oscillators import Problem
+from ogilvie.bem.outer_poles import common_poles, damped_oscillators, phase
 
 Array = NDArray[Any]
 
-_APART = 0.25  # in log omega, of the places where a new oscillator is tried
-_PLACES = 3
-_WIDTHS = (0.15, 0.6)  # of critical damping, of a new oscillator
-_SHORT, _LONG = 6, 40  # iterations: of each trial, of the best
+_STAGES = ((10.0, 150), (1e5, 60), (1e9, 60))  # weight of K(0+), iterations
+_ENOUGH = 1e-4  # relative gain of the cost below which an iteration is the last
 
 
-def grown(problem: Problem, count: int, report: Callable[[str], None] = lambda text: None) -> Array:
-    """Return the parameters of `count` oscillators."""
-    p = np.zeros(0)
-    for n in range(count):
-        trials = sorted(_trials(problem, p), key=problem.cost)[:_PLACES]
-        descended = [descend(problem, trial, _SHORT) for trial in trials]
-        p, cost = descend(problem, min(descended, key=lambda d: d[1])[0], _LONG)
-        report(f"{n + 1} oscillators, error {np.sqrt(cost):.2e}")
-    return p
+def fitted(omega: Array, L: Array, initial: Array, count: int) -> tuple[Array, Array, Array]:
+    """Return w (n,), b (n, J) and d (n,) of n = `count` oscillators with b^T b = K(0+) exactly.
+
+    Parameters
+    ----------
+    omega : (f,) array
+        The first one 0, the last one so high that L is nearly -K(0+) / omega^2.
+    L : (f, J, J) complex array
+        N - N_inf, time factor exp(+i omega t).
+    initial : (J, J) array
+        K(0+), symmetric, positive semi-definite.
+    count : int
+        At least J.
+
+    Notes
+    -----
+    Errors are weighed by 1 + omega: those of L at low frequencies, of K_hat = i omega L at high ones.
+    """
+    size = np.abs(L).max()
+    weight = (1 + omega) / size
+    problem = Problem(omega, L, weight**2 / len(omega), initial, 0.0)
+    p = _start(problem, weight, count)
+    for hold, iterations in _STAGES:
+        p = descended(replace(problem, initial_weight=hold / np.abs(initial).max() ** 2), p, iterations)
+    return problem.split(with_initial(problem, p))
 
 
-def descend(problem: Problem, p: Array, iterations: int, *, tolerance: float = 1e-3) -> tuple[Array, float]:
-    """Return parameters and cost after Levenberg-Marquardt."""
-    damping = 1e-3
+def _start(problem: Problem, weight: Array, count: int) -> Array:
+    """Parameters from the common poles, b from the radiated waves.
+
+    Where damping is omega^2 h h^T, the waves of the model are d^T (...)^-1 b = exp(-i phase) cos(phase) sum_k d_k b_k /
+    (w_k^2 - omega^2): equal to h, which is real but for that phase, by linear least squares.
+    """
+    omega, L = problem.omega, problem.target
+    i, j = np.triu_indices(L.shape[1])
+    poles = common_poles(omega, L[:, i, j], weight, count)
+    w, d = damped_oscillators(poles)
+    wave, at, trust = _radiated(L[omega > 0], omega[omega > 0]), omega[omega > 0], (weight * omega)[omega > 0, None]
+    M = np.cos(phase(poles, at))[:, None] * d / (w**2 - at[:, None] ** 2)
+    b = np.linalg.lstsq(trust * M, trust * wave, rcond=1e-10)[0]
+    return np.concatenate([np.log(w), b.ravel(), d])
+
+
+def _radiated(L: Array, omega: Array) -> Array:
+    """h (f, J) with -omega Im L = omega^2 h h^T, its sign continuous."""
+    strength, axes = np.linalg.eigh(-L.imag / omega[:, None, None])
+    h = np.sqrt(np.maximum(strength[:, -1:], 0.0)) * axes[:, :, -1]
+    turns = np.where((h[1:] * h[:-1]).sum(axis=1) < 0, -1.0, 1.0)
+    return np.asarray(h * np.concatenate([[1.0], np.cumprod(turns)])[:, None])
+
+
+def descended(problem: Problem, p: Array, iterations: int) -> Array:
+    """Return parameters after Levenberg-Marquardt."""
+    damping = 1e-6
     cost, gradient, normal = problem.normal(p)
     for _ in range(iterations):
-        scale = np.diag(normal) + 1e-9 * np.trace(normal) / len(p)
-        for _ in range(10):
-            matrix = normal.copy()
-            matrix[np.diag_indices_from(matrix)] += damping * scale
+        for _ in range(15):
+            matrix = normal + damping * np.trace(normal) / len(p) * np.eye(len(p))
             _, step, failed = scipy.linalg.lapack.dposv(matrix, gradient, overwrite_a=True)
-            trial = p - step
-            if not failed and np.abs(step[: len(problem.split(p)[0])]).max() < 2.0 and problem.cost(trial) < cost:
+            if not failed and problem.cost(p - step) < cost:
                 break
             damping *= 4
         else:
-            return p, cost
-        before, p, damping = cost, trial, max(damping / 5, 1e-12)
+            return p
+        before, p, damping = cost, p - step, max(damping / 5, 1e-16)
         cost, gradient, normal = problem.normal(p)
-        if before - cost < tolerance * cost:
+        if before - cost < _ENOUGH * cost:
             break
-    return p, cost
-
-
-def _trials(problem: Problem, p: Array) -> list[Array]:
-    """Parameters with one more oscillator at the frequencies of the largest errors, on each damper in turn."""
-    J, r = len(problem.initial), problem.dampers
-    n = len(p) // (1 + J + r)
-    w, b, D = problem.split(p)
-    missing = -problem.error(p) if n else problem.target
-    size = np.sqrt(problem.weight * np.abs(missing).max(axis=(1, 2)) ** 2) * (problem.omega > 0)
-    found = []
-    for w0 in _peaks(problem.omega, size):
-        near = np.exp(-((np.log(np.maximum(problem.omega, 1e-6) / w0) / 0.3) ** 2)) * problem.weight
-        damping = np.einsum("f,fij->ij", near / near.sum(), -problem.omega[:, None, None] * missing.imag)
-        strength, direction = np.linalg.eigh(damping)
-        for zeta in _WIDTHS:
-            row = np.sqrt(2 * zeta * w0 * max(strength[-1], 1e-14)) * direction[:, -1]
-            for q in range(min(r, n + 1)):
-                damper = np.sqrt(2 * zeta * w0) * (np.arange(r) == q)
-                found.append(np.concatenate([np.log(np.append(w, w0)), b.ravel(), row, D.ravel(), damper]))
-    return found
-
-
-def _peaks(omega: Array, size: Array) -> list[float]:
-    """Frequencies of the largest errors, some distance apart."""
-    found: list[float] = []
-    for f in np.argsort(-size):
-        if omega[f] > 0 and all(abs(np.log(omega[f] / other)) > _APART for other in found):
-            found.append(float(omega[f]) * 1.003)  # off the frequency itself
-        if len(found) == _PLACES:
-            break
-    return found
-
-
-def levelled(problem: Problem, p: Array, *, rounds: int = 6, iterations: int = 12) -> Array:
-    """Return parameters whose largest error is lower: weights grow where errors are large."""
-    best, lowest = p, np.inf
-    base = problem.weight
-    boost = np.ones(len(base))
-    for _ in range(rounds + 1):
-        error = np.abs(problem.error(p)).max(axis=(1, 2)) * np.sqrt(base)
-        if error.max() < lowest:
-            best, lowest = p, error.max()
-        boost = boost * np.maximum(error / np.sqrt(np.mean(error**2)), 0.3)
-        boost /= boost.mean()
-        p, _ = descend(replace(problem, weight=base * boost), p, iterations)
-    return best
+    return p
 
 
 def with_initial(problem: Problem, p: Array) -> Array:
-    """Return parameters with b^T b = K(0+) exactly: the nearest such b."""
-    w, b, D = problem.split(p)
-    value, axes = np.linalg.eigh(problem.initial)
-    root = (axes * np.sqrt(np.maximum(value, 0.0))) @ axes.T
+    """Return parameters with b^T b = K(0+) exactly, b as near as possible to what it was."""
+    w, b, d = problem.split(p)
+    strength, axes = np.linalg.eigh(problem.initial)
+    root = (axes * np.sqrt(np.maximum(strength, 0.0))) @ axes.T
     U, _, V = np.linalg.svd(b @ root, full_matrices=False)
-    return np.concatenate([np.log(w), (U @ V @ root).ravel(), D.ravel()])
+    return np.concatenate([np.log(w), (U @ V @ root).ravel(), d])
