@@ -1,0 +1,65 @@
+"""Computes the data of the outer domain that the package ships: python -m ogilvie.bem.outer_build [FILE]."""
+
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ogilvie.atomic import write_whole
+from ogilvie.bem.outer import DATA
+from ogilvie.bem.outer_fit import fitted
+from ogilvie.bem.outer_initial import initial_memory
+from ogilvie.bem.outer_map import outer_map
+from ogilvie.bem.outer_oscillators import solved
+
+Array = NDArray[Any]
+
+MODES, FUNCTIONS, OSCILLATORS = 17, 12, 24
+
+
+def frequencies() -> Array:
+    """Return the frequencies of the fit: zero, the low ones where m = 0 is logarithmic, the waves, the high ones."""
+    return np.concatenate([[0.0], np.geomspace(0.001, 0.4, 32), np.arange(0.45, 7.0, 0.08), np.geomspace(7.0, 30.0, 22)])
+
+
+def exact(m: int, count: int, omega: Array) -> tuple[Array, Array, Array]:
+    """Return N_inf (J, J), N - N_inf at the frequencies (f, J, J), the first of them zero, and K(0+) (J, J)."""
+    sea = outer_map(m, count)
+    N_inf = sea.at_infinity
+    L = np.array([sea.at_zero.astype(complex)] + [sea.at(w) for w in omega[1:]]) - N_inf
+    return N_inf, L, initial_memory(m, count)
+
+
+def build_mode(m: int, *, count: int = FUNCTIONS, oscillators: int = OSCILLATORS) -> dict[str, Array]:
+    """Return what is stored of one azimuthal mode, and the largest error over the largest entry of N - N_inf."""
+    omega = frequencies()
+    N_inf, L, initial = exact(m, count, omega)
+    w, b, d = fitted(omega, L, initial, oscillators)
+    order = np.argsort(w)
+    error = np.abs(b.T @ solved(w, b, d, omega) - L).max() / np.abs(L).max()
+    return {
+        "instantaneous": N_inf,
+        "inputs": b[order],
+        "dampers": d[order],
+        "frequencies": w[order],
+        "error": np.array(error),
+    }
+
+
+def main(path: Path) -> None:
+    """Compute all modes and write them."""
+    modes = []
+    for m in range(MODES):
+        start = time.perf_counter()
+        modes.append(build_mode(m))
+        print(f"m = {m:2d}: error {modes[-1]['error']:.1e}, {time.perf_counter() - start:.0f} s", flush=True)
+    arrays: dict[str, Any] = {name: np.array([mode[name] for mode in modes]) for name in modes[0]}
+    write_whole(path, lambda file: np.savez_compressed(file, **arrays))
+    print(f"{path}: {path.stat().st_size / 1000:.0f} kB")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).with_name(DATA))
