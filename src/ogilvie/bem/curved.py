@@ -33,12 +33,18 @@ class CurvedMesh:
         Of the control hemisphere about O, m.
     symmetry : {"none", "xz", "xz+yz"}
         Planes of symmetry; only the part y >= 0 (and x >= 0) is stored.
+    centre : (x, y, 0)
+        Where the middle O of the hemisphere is in the hull's axes, m; `points` count from there.
+    notes : tuple of str
+        How the hull became curved panels.
     """
 
     points: Array
     part: NDArray[np.int64]
     radius: float
     symmetry: Symmetry = "none"
+    centre: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         points, part = np.array(self.points, dtype=float), np.array(self.part, dtype=np.int64)
@@ -51,6 +57,8 @@ class CurvedMesh:
             raise InputError(f"part: {n} numbers of 0 (hull), 1 (free surface), 2 (control surface) expected.")
         if not self.radius > 0.0 or self.symmetry not in ("none", "xz", "xz+yz"):
             raise InputError(f"radius > 0 and a known symmetry expected, {self.radius!r} and {self.symmetry!r} found.")
+        if len(self.centre) != 3 or not np.all(np.isfinite(self.centre)) or self.centre[2] != 0.0:
+            raise InputError(f"centre: a point (x, y, 0) expected, {self.centre!r} found.")
         points.setflags(write=False)
         part.setflags(write=False)
         object.__setattr__(self, "points", points)

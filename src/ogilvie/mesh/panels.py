@@ -12,6 +12,7 @@ from ogilvie.errors import InputError
 from ogilvie.frames import rotation_matrix
 from ogilvie.mesh.clip import clip_below
 from ogilvie.mesh.integrals import MIRROR, panel_geometry, reversed_faces, surface_moments
+from ogilvie.mesh.smooth import SmoothSurface
 from ogilvie.mesh.topology import half, with_mirror_image
 
 Array = NDArray[np.float64]
@@ -42,6 +43,9 @@ class PanelMesh:
     name : str
     lid : PanelMesh, optional
         Interior panels of the waterplane (z = 0) against irregular frequencies; no part of the hull's geometry.
+    surface : SmoothSurface, optional
+        The smooth hull that the panels stand for, where it is known; it moves with them, and is left out where panels are cut
+        or turned over.
 
     Notes
     -----
@@ -65,6 +69,7 @@ class PanelMesh:
     symmetry: Symmetry = "none"
     name: str = "hull"
     lid: "PanelMesh | None" = None
+    surface: SmoothSurface | None = None
 
     def __post_init__(self) -> None:
         vertices = np.array(self.vertices, dtype=float)
@@ -266,11 +271,15 @@ class PanelMesh:
         """Return the mirror image at the plane y = 0 ("xz") or x = 0 ("yz"); normals still point into the fluid."""
         if plane not in MIRROR:
             raise InputError(f"mirrored: 'xz' or 'yz' expected, {plane!r} found.")
-        return self if plane in self.planes else self._moved(lambda v: v * MIRROR[plane]).flipped()
+        if plane in self.planes:
+            return self
+        surface = self.surface.mirrored(plane) if self.surface is not None else None
+        bare = replace(self, surface=None)
+        return replace(bare._moved(lambda v: v * MIRROR[plane]).flipped(), surface=surface)
 
     def flipped(self) -> "PanelMesh":
         """Return the mesh with all panels turned over (the lid stays as it is)."""
-        return replace(self, faces=reversed_faces(self.faces))
+        return replace(self, faces=reversed_faces(self.faces), surface=None)
 
     def immersed(self, draught: float | None = None) -> "PanelMesh":
         """Return the part below z = 0, after a shift that puts the lowest point at z = -draught.
@@ -301,35 +310,39 @@ class PanelMesh:
                 f"immersed: panels of {self.name!r} below z = 0 expected, lowest z {low:.6g} m found; give a draught."
             )
         keeps_lid = mesh.lid is not None and np.abs(mesh.lid.bounds[:, 2]).max() <= mesh.tolerance
-        return replace(mesh, vertices=vertices, faces=faces, lid=mesh.lid if keeps_lid else None)
+        surface = mesh.surface if mesh.bounds[1, 2] <= mesh.tolerance else None  # nothing is cut
+        return replace(mesh, vertices=vertices, faces=faces, lid=mesh.lid if keeps_lid else None, surface=surface)
 
     # ---- helpers
 
     def _moved(self, transform: Callable[[Array], Array]) -> "PanelMesh":
         lid = self.lid._moved(transform) if self.lid is not None else None
-        return replace(self, vertices=transform(self.vertices), lid=lid)
+        surface = self.surface.moved(transform) if self.surface is not None else None
+        return replace(self, vertices=transform(self.vertices), lid=lid, surface=surface)
 
     def _kept(self, *, xz: bool, yz: bool) -> "PanelMesh":
         """Return the mesh with only those planes of symmetry that an operation leaves alone."""
         return self._expanded(("xz", "yz") if xz and yz else ("xz",) if xz else ())
 
     def _expanded(self, planes: tuple[Plane, ...]) -> "PanelMesh":
-        vertices, faces, tolerance = self.vertices, self.faces, self.tolerance
+        vertices, faces, surface, tolerance = self.vertices, self.faces, self.surface, self.tolerance
         left = len(self.planes)
         while left > len(planes):
             left -= 1
+            surface = surface.with_mirror_image(self.planes[left]) if surface is not None else None
             vertices, faces = with_mirror_image(vertices, faces, plane=self.planes[left], tolerance=tolerance)
         lid = self.lid._expanded(planes) if self.lid is not None else None
         return (
             self
             if left == len(self.planes)
-            else replace(self, vertices=vertices, faces=faces, symmetry=_SYMMETRIES[left], lid=lid)
+            else replace(self, vertices=vertices, faces=faces, symmetry=_SYMMETRIES[left], lid=lid, surface=surface)
         )
 
     def _halved(self, plane: Plane) -> "PanelMesh":
         vertices, faces = half(self.vertices, self.faces, plane=plane, tolerance=1e2 * self.tolerance)
         lid = self.lid._halved(plane) if self.lid is not None else None
-        return replace(self, vertices=vertices, faces=faces, symmetry=_SYMMETRIES[len(self.planes) + 1], lid=lid)
+        symmetry, surface = _SYMMETRIES[len(self.planes) + 1], self.surface.half(plane) if self.surface is not None else None
+        return replace(self, vertices=vertices, faces=faces, symmetry=symmetry, lid=lid, surface=surface)
 
 
 def _locked(array: Array) -> Array:

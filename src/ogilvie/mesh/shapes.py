@@ -14,6 +14,7 @@ from ogilvie.mesh.panels import PanelMesh
 from ogilvie.mesh.particulars import from_particulars
 from ogilvie.mesh.patches import oriented, panel_mesh, quarter_disc, spacing
 from ogilvie.mesh.s175 import s175
+from ogilvie.mesh.smooth_shapes import smooth_box, smooth_cylinder, smooth_hemisphere, smooth_wigley
 
 __all__ = ["box", "cylinder", "from_offsets", "from_particulars", "hemisphere", "s175", "waterplane_lid", "wigley"]
 
@@ -63,7 +64,7 @@ def hemisphere(radius: float, *, panels: int = 1000, grading: float = 0.5, name:
         _grid(across, down, lambda a, z: (a, 1.0, z), outward=(0, 1, 0)),
     ]
     mesh = panel_mesh([R * g / np.linalg.norm(g, axis=-1, keepdims=True) for g in cube], symmetry="xz+yz", name=name)
-    return mesh.scaled((2.0 / 3.0 * np.pi * R**3 / mesh.volume) ** (1.0 / 3.0))
+    return replace(mesh.scaled((2.0 / 3.0 * np.pi * R**3 / mesh.volume) ** (1.0 / 3.0)), surface=smooth_hemisphere(R))
 
 
 def box(
@@ -101,7 +102,7 @@ def box(
         _grid(x, z, lambda x, z: (x, 0.5 * B, z), outward=(0, 1, 0)),
         _grid(y, z, lambda y, z: (0.5 * L, y, z), outward=(1, 0, 0)),
     ]
-    return panel_mesh(sheets, symmetry="xz+yz", name=name)
+    return replace(panel_mesh(sheets, symmetry="xz+yz", name=name), surface=smooth_box(L, B, T))
 
 
 def cylinder(radius: float, draught: float, *, panels: int = 1000, grading: float = 0.5, name: str = "cylinder") -> PanelMesh:
@@ -141,7 +142,8 @@ def cylinder(radius: float, draught: float, *, panels: int = 1000, grading: floa
     z = T * (spacing(rows, grading=grading, fine="both") - 1.0)
     angle = d * np.arange(2 * n + 1, dtype=float)
     side = _grid(angle, z, lambda a, z: (rim * np.cos(a), rim * np.sin(a), z), outward=(1, 1, 0))
-    return panel_mesh([*(oriented(g, (0, 0, -1)) for g in bottom), side], symmetry="xz+yz", name=name)
+    mesh = panel_mesh([*(oriented(g, (0, 0, -1)) for g in bottom), side], symmetry="xz+yz", name=name)
+    return replace(mesh, surface=smooth_cylinder(R, T))
 
 
 def wigley(
@@ -201,7 +203,8 @@ def wigley(
         side = _wigley_side((L, B, T), alpha, c, target, grading)
         mesh = panel_mesh([side], symmetry="xz+yz", name=name or f"Wigley {kind}")
         if 4 * mesh.n_faces <= panels:  # strongly warped panels have become two triangles
-            return replace(mesh, vertices=mesh.vertices * [1.0, L * B * T * mean / mesh.volume, 1.0])
+            surface = smooth_wigley(L, B, T, lambda xi, zeta: _wigley_eta(xi, zeta, alpha, c))
+            return replace(mesh, vertices=mesh.vertices * [1.0, L * B * T * mean / mesh.volume, 1.0], surface=surface)
     raise InputError(f"panels: at least 8 expected for this shape, {panels!r} found.")
 
 
