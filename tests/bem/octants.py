@@ -71,11 +71,14 @@ def mirrored(points, part, plane):
     return np.concatenate([points, other.transpose(0, 2, 1, 3)]), np.concatenate([part, part])
 
 
-def hemisphere_in_hemisphere(*, k=1, depth=2, across=3, q=7, radius=2.0, symmetry="xz+yz", power=2.0, control=None):
-    """Inner domain between the hemispheres of radius 1 and `radius`."""
-    hull = sphere_octant(k, graded(depth, power), q, outwards=False)
-    outer = [radius * p for p in sphere_octant(k, graded(control or depth, power), q)]
-    free = annulus(k, 1.0 + (radius - 1.0) * graded(across, power, both=True), q)
+def hemisphere_in_hemisphere(*, k=1, depths=2, across=3, control=None, q=7, radius=2.0, symmetry="xz+yz"):
+    """Inner domain between the hemispheres of radius 1 and `radius`; panels by number (graded) or by their sides in 0..1."""
+    depths = graded(depths) if np.ndim(depths) == 0 else np.asarray(depths)
+    across = graded(across, both=True) if np.ndim(across) == 0 else np.asarray(across)
+    control = depths if control is None else graded(control) if np.ndim(control) == 0 else np.asarray(control)
+    hull = sphere_octant(k, depths, q, outwards=False)
+    outer = [radius * p for p in sphere_octant(k, control, q)]
+    free = annulus(k, 1.0 + (radius - 1.0) * across, q)
     points = np.array(hull + free + outer)
     part = np.repeat([BODY, FREE, CONTROL], [len(hull), len(free), len(outer)])
     if symmetry != "xz+yz":

@@ -6,15 +6,18 @@ from functools import cached_property
 from typing import Any, Protocol
 
 import numpy as np
+from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
 from ogilvie.bem.curved import BODY, CONTROL, FREE
+from ogilvie.bem.curved_nodes import CurvedNodes, frames
 from ogilvie.bem.inner import InnerMap, normal_modes
 from ogilvie.errors import ConvergenceError, InputError
 
 Array = NDArray[Any]
 
-_GRAM = 0.05  # largest departure from orthonormality of the functions on the control surface's nodes
+_GRAM = 0.9  # largest part of the square of a function on the control surface that its nodes may miss
+_MORE = 6  # points per side of a panel, more than nodes, for integrals of these functions
 
 
 class OuterMode(Protocol):
@@ -50,7 +53,7 @@ class CoupledSystem:
     modes : (n_dofs, n_hull) array
         Normal velocity of a unit velocity in each dof of the class.
     gram : float
-        Largest departure from orthonormality of the functions on the control surface.
+        Largest part of the square of a function on the control surface that its nodes miss.
     """
 
     inner: InnerMap
@@ -151,30 +154,40 @@ def _outer(
     from scipy.linalg import block_diag
 
     nodes = inner.nodes
-    on = nodes.part == CONTROL
-    x, weight = nodes.position[on], inner.root_weight[on]
-    depth = np.clip(-x[:, 2] / np.linalg.norm(x, axis=1), 0.0, 1.0)
-    azimuth = np.arctan2(x[:, 1], x[:, 0])
     symmetry = nodes.mesh.symmetry
     kinds = azimuthal_modes(inner.parity, (symmetry == "xz+yz", symmetry != "none"), len(outer) - 1)
-    rows, used = [], []
-    for m, sine in kinds:
-        mode = outer[m]
-        used.append(mode)
-        wave = np.sin(m * azimuth) if sine else np.cos(m * azimuth)
-        rows.append(depth_functions(m, depth, len(mode.instantaneous)) * wave / np.sqrt(np.pi * (2 if m == 0 else 1)) * weight)
-    Y, gram = _orthonormal(np.concatenate(rows))
+    used = [outer[m] for m, _ in kinds]
+    Y = control_functions(nodes, [(m, sine, len(u.instantaneous)) for (m, sine), u in zip(kinds, used, strict=True)], depth_functions)
+    size = np.linalg.eigvalsh(Y @ Y.T)
+    gram = float(np.abs(size - 1.0).max())
+    if gram > _GRAM:
+        raise InputError(
+            f"The control surface has {Y.shape[1]} nodes in its stored part; {len(Y)} functions on it have squares between "
+            f"{size[0]:.2g} and {size[-1]:.2g} there, 1 within {_GRAM} expected. Use more panels on the control surface, or fewer "
+            "outer modes."
+        )
     b, D, N = (block_diag(*(getattr(u, name) for u in used)) for name in ("inputs", "dampers", "instantaneous"))
     return Y, b, D, np.concatenate([u.frequencies for u in used]), N, gram
 
 
-def _orthonormal(Y: Array) -> tuple[Array, float]:
-    """Return the rows made orthonormal with the least change, and how far they were from it."""
-    size, turn = np.linalg.eigh(Y @ Y.T)
-    gram = float(np.abs(size - 1.0).max())
-    if gram > _GRAM:
-        raise InputError(
-            f"The control surface has {Y.shape[1]} nodes in its stored part; {len(Y)} functions on it are orthonormal within "
-            f"{gram:.2g} only, {_GRAM} expected. Use more panels on the control surface, or fewer outer modes."
-        )
-    return (turn / np.sqrt(size)) @ turn.T @ Y, gram
+def control_functions(nodes: CurvedNodes, kinds: Sequence[tuple[int, bool, int]], depth_functions: DepthFunctions) -> Array:
+    """Return the functions (m, sine?, J) of the control surface seen by its nodes, (n_functions, n_control).
+
+    Rows hold int L_i Y dS / sqrt(weight_i) with L_i one at node i and zero at the others, by a rule of more points than the nodes:
+    the row times the values times sqrt(weight) is the integral of Y times what the nodes hold, the transposed the best
+    approximation of Y by the nodes. A function of unit square that the nodes cannot hold has a shorter row.
+    """
+    p, on = nodes.order, nodes.mesh.part == CONTROL
+    t, w = legendre.leggauss(p + _MORE)
+    x, _, _, cross = frames(nodes.coefficients[on], t, t)
+    area = np.linalg.norm(cross, axis=-1) * np.outer(w, w) * len(nodes.mesh.images)
+    L = legendre.legvander(t, p - 1) @ nodes.to_lagrange.T
+    depth = np.clip(-x[..., 2] / np.linalg.norm(x, axis=-1), 0.0, 1.0)
+    azimuth = np.arctan2(x[..., 1], x[..., 0])
+    rows = []
+    for m, sine, count in kinds:
+        wave = (np.sin(m * azimuth) if sine else np.cos(m * azimuth)) / np.sqrt(np.pi * (2 if m == 0 else 1))
+        values = depth_functions(m, depth.ravel(), count).reshape(count, *depth.shape) * (wave * area)
+        rows.append(np.einsum("knij,ia,jb->knab", values, L, L, optimize=True).reshape(count, -1))
+    root = np.sqrt(len(nodes.mesh.images) * nodes.weight[nodes.part == CONTROL])
+    return np.concatenate(rows) / root
