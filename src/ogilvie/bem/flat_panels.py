@@ -1,0 +1,239 @@
+"""Flat triangles and quadrilaterals with constant densities: geometry, Rankine influence, symmetry."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ogilvie.bem.curved import Symmetry
+from ogilvie.bem.flat_panels_kernel import fill_influence
+from ogilvie.errors import InputError
+
+Array = NDArray[Any]
+
+#: Quadrilaterals whose corners leave their mean plane by more than this part of their size become two triangles.
+FLATNESS = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class FlatPanels:
+    """Flat panels with normals to one side.
+
+    Parameters
+    ----------
+    corners : (n, 4, 3) array
+        m, anticlockwise as seen from where the normal points to; a triangle repeats its third corner. Quadrilaterals that are
+        not flat are split along the diagonal from the first to the third corner, so that the surface stays closed: `n` grows.
+    symmetry : {"none", "xz", "xz+yz"}
+        Planes of symmetry; only the part y >= 0 (and x >= 0) is given.
+
+    Raises
+    ------
+    InputError
+        Wrong shape, NaN, panels without area.
+
+    Examples
+    --------
+    >>> square = FlatPanels([[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]])
+    >>> square.areas.tolist(), square.normals.tolist()
+    ([1.0], [[0.0, 0.0, 1.0]])
+    """
+
+    corners: Array
+    symmetry: Symmetry = "none"
+
+    def __post_init__(self) -> None:
+        corners = np.array(self.corners, dtype=float)
+        if corners.ndim != 3 or corners.shape[1:] != (4, 3) or len(corners) == 0 or not np.all(np.isfinite(corners)):
+            raise InputError(f"corners: a finite (n, 4, 3) array, n >= 1, expected, shape {corners.shape} found (or NaN).")
+        if self.symmetry not in ("none", "xz", "xz+yz"):
+            raise InputError(f"symmetry: 'none', 'xz' or 'xz+yz' expected, {self.symmetry!r} found.")
+        corners = _repeated_third(corners)
+        size = np.ptp(corners, axis=1).max(axis=-1)
+        area = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+        length = np.linalg.norm(area, axis=-1)
+        flat = np.abs(np.einsum("nk,nk->n", corners[:, 1] - corners[:, 0], area)) <= FLATNESS * size * length
+        if not flat.all():
+            warped = corners[~flat]
+            corners = np.concatenate([corners[flat], warped[:, [0, 1, 2, 2]], warped[:, [0, 2, 3, 3]]])
+        corners.setflags(write=False)
+        object.__setattr__(self, "corners", corners)
+        if not np.all(self.areas > 1e-14 * np.ptp(corners, axis=1).max(axis=-1) ** 2):
+            raise InputError(f"corners: panels with an area expected, panel {int(self.areas.argmin())} has none.")
+
+    def __len__(self) -> int:
+        return len(self.corners)
+
+    @cached_property
+    def _triangles(self) -> tuple[Array, Array]:
+        """Centroids (n, 2, 3) and area vectors (n, 2, 3) of the two triangles of each panel."""
+        a, b, c, d = self.corners.transpose(1, 0, 2)
+        centers = np.stack([a + b + c, a + c + d], axis=1) / 3.0
+        return centers, 0.5 * np.stack([np.cross(b - a, c - a), np.cross(c - a, d - a)], axis=1)
+
+    @cached_property
+    def areas(self) -> Array:
+        """(n,) m2."""
+        return np.asarray(np.linalg.norm(self._triangles[1].sum(axis=1), axis=-1))
+
+    @cached_property
+    def normals(self) -> Array:
+        """(n, 3) unit vectors."""
+        return np.asarray(self._triangles[1].sum(axis=1) / self.areas[:, None])
+
+    @cached_property
+    def _parts(self) -> Array:
+        """Signed areas (n, 2) of the triangles, m2."""
+        return np.einsum("ntk,nk->nt", self._triangles[1], self.normals)
+
+    @cached_property
+    def centers(self) -> Array:
+        """Centroids (n, 3), m."""
+        return np.einsum("nt,ntk->nk", self._parts, self._triangles[0]) / self.areas[:, None]
+
+    @cached_property
+    def moments(self) -> Array:
+        """Second moments (n, 3, 3) about the centroids, m4."""
+        a, b, c, d = (self.corners - self.centers[:, None]).transpose(1, 0, 2)
+        M = np.zeros((len(self), 3, 3))
+        for k, (p, q, r) in enumerate(((a, b, c), (a, c, d))):
+            for x in (p, q, r, p + q + r):  # int x x^T = A/12 (p p^T + q q^T + r r^T + (p+q+r)(p+q+r)^T)
+                M += self._parts[:, k, None, None] / 12.0 * x[:, :, None] * x[:, None, :]
+        return M
+
+    @cached_property
+    def sizes(self) -> Array:
+        """(n,) largest distances of a corner from the centroid, m."""
+        return np.asarray(np.linalg.norm(self.corners - self.centers[:, None], axis=-1).max(axis=1))
+
+    @cached_property
+    def images(self) -> Array:
+        """Signs (n_images, 2) of x and y of the given part and of its mirror images."""
+        return image_signs(self.symmetry)
+
+
+class Influence(NamedTuple):
+    """Potentials (n_field, n) of unit source density, m, and of unit dipole density along the normals, dimensionless."""
+
+    single: Array
+    double: Array
+
+
+def rankine(field: ArrayLike, panels: FlatPanels, *, accuracy: float = 1e-6) -> Influence:
+    """Return int 1/r dS and int d/dn_q (1/r) dS over each given panel (no mirror images).
+
+    Parameters
+    ----------
+    field : (n_field, 3) array
+        Points, m.
+    panels : FlatPanels
+    accuracy : float
+        Largest relative error of an entry, 1e-10..1e-2 (of the double layer: relative to A/d^2).
+
+    Returns
+    -------
+    Influence
+        At a point in the plane of a panel the double layer is zero, the mean of both sides.
+
+    Raises
+    ------
+    InputError
+        Wrong shapes, NaN, accuracy out of range.
+
+    Notes
+    -----
+    Exact near the panel; from (1/(2 accuracy))^(1/3) panel sizes on by second moments, from (3/(2 accuracy))^(1/2) sizes on as
+    points.
+
+    Examples
+    --------
+    Centre of a unit square: 4 ln(1 + 2^(1/2)).
+
+    >>> square = FlatPanels([[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]])
+    >>> rankine([[0.5, 0.5, 0.0]], square).single.round(6).tolist()
+    [[3.525494]]
+    """
+    points = np.ascontiguousarray(field, dtype=float)
+    if points.ndim != 2 or points.shape[1] != 3 or not np.all(np.isfinite(points)):
+        raise InputError(f"rankine: field: a finite (n, 3) array expected, shape {points.shape} found (or NaN).")
+    if not 1e-10 <= accuracy <= 1e-2:
+        raise InputError(f"rankine: accuracy: 1e-10..1e-2 expected, {accuracy!r} found.")
+    S, D = np.empty((2, len(points), len(panels)))
+    p = panels
+    near, far = (0.5 / accuracy) ** (1 / 3), (1.5 / accuracy) ** 0.5
+    fill_influence(points, p.corners, p.centers, p.normals, p.areas, p.moments, p.sizes, max(near, 3.0), far, S, D)
+    return Influence(S, D)
+
+
+def rankine_by_parity(
+    field: ArrayLike, panels: FlatPanels, parities: ArrayLike, *, accuracy: float = 1e-6, mirror: tuple[float, ...] = (1, 1, 1)
+) -> list[Influence]:
+    """Return the influence of panels with all their mirror images, for densities that are even or odd in x and y.
+
+    Parameters
+    ----------
+    field : (n_field, 3) array
+        Points, m.
+    panels : FlatPanels
+    parities : (n_parities, 2) array
+        +1 (even) or -1 (odd) in x and in y.
+    accuracy : float
+        See `rankine`.
+    mirror : 3 signs
+        (1, 1, -1): of the images in z = 0 instead, with the densities and normal derivatives of the panels.
+
+    Returns
+    -------
+    list of Influence
+        One for each parity.
+
+    Notes
+    -----
+    An image at P acts as the panel itself at the image of P, so each image is integrated once and added with the sign of
+    each parity (Guo et al., Eqs. (26)-(33), for any symmetry and all modes at once).
+
+    Examples
+    --------
+    >>> half = FlatPanels([[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]], symmetry="xz")
+    >>> even, odd = rankine_by_parity([[0.5, 0.0, 0.3]], half, [[1, 1], [1, -1]])
+    >>> bool(even.single > 1.0), bool(abs(odd.single) < 1e-12)
+    (True, True)
+    """
+    points = np.asarray(field, dtype=float) * np.asarray(mirror, dtype=float)
+    signs = density_signs(panels.images, parities)
+    total: list[Influence] = []
+    for image, sign in zip(panels.images, signs.T, strict=True):
+        S, D = rankine(points * [*image, 1.0], panels, accuracy=accuracy)
+        if not total:
+            total = [Influence(s * S, s * D) for s in sign]
+            continue
+        for s, (single, double) in zip(sign, total, strict=True):
+            single += s * S
+            double += s * D
+    return total
+
+
+def image_signs(symmetry: Symmetry) -> Array:
+    """Return the signs (n_images, 2) of x and y of the given part and of its mirror images."""
+    y = (1.0,) if symmetry == "none" else (1.0, -1.0)
+    x = (1.0, -1.0) if symmetry == "xz+yz" else (1.0,)
+    return np.array([(a, b) for a in x for b in y])
+
+
+def density_signs(images: Array, parities: ArrayLike) -> Array:
+    """Return the sign (n_parities, n_images) that a density of each parity has on each image."""
+    p = np.atleast_2d(np.asarray(parities, dtype=float))
+    if p.ndim != 2 or p.shape[1] != 2 or not np.all(np.abs(p) == 1.0):
+        raise InputError(f"parities: an (n, 2) array of +1 and -1 expected, {parities!r} found.")
+    return np.asarray(np.where(images[None] < 0.0, p[:, None, :], 1.0).prod(axis=-1))
+
+
+def _repeated_third(corners: Array) -> Array:
+    """Return corners with those of triangles ordered so that the third is repeated."""
+    corners = corners.copy()
+    for k in (0, 1, 3):  # corner k equals corner k + 1: start after it, so that it comes third and fourth
+        same = np.all(corners[:, k] == corners[:, (k + 1) % 4], axis=-1) & ~np.all(corners[:, 2] == corners[:, 3], axis=-1)
+        corners[same] = np.roll(corners[same], -(k + 2) % 4, axis=1)
+    return corners
