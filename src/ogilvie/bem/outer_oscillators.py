@@ -93,8 +93,8 @@ class Problem:
         sH = self.omega[:, None] * H
         dd = np.einsum("f,fkl->kl", self.omega**2 * (np.abs(Z) ** 2).sum(axis=1), gG).real
         dd += _real_product(g[:, None] * sH, sH.conj())
-        bb, bd = bb.reshape(n * J, n * J), -bd.reshape(n * J, n)
-        normal = np.block([[ww, wb, wd], [wb.T, bb, bd], [wd.T, bd.T, dd]])
+        b_b, b_d = bb.reshape(n * J, n * J), -bd.reshape(n * J, n)
+        normal = np.block([[ww, wb, wd], [wb.T, b_b, b_d], [wd.T, b_d.T, dd]])
         return self._cost(E, first), np.concatenate([slope_w, slope_b.ravel(), slope_d]), normal
 
 
