@@ -12,31 +12,36 @@ from ogilvie.atomic import write_whole
 from ogilvie.bem.outer import DATA
 from ogilvie.bem.outer_fit import fitted
 from ogilvie.bem.outer_initial import initial_memory
-from ogilvie.bem.outer_map import outer_map
+from ogilvie.bem.outer_map import MULTIPOLES, outer_map
 from ogilvie.bem.outer_oscillators import solved
+from ogilvie.bem.outer_short_waves import short_waves
 
 Array = NDArray[Any]
 
-MODES, FUNCTIONS, OSCILLATORS = 17, 12, 24
+MODES, FUNCTIONS, OSCILLATORS = 17, 16, 28
 
 
-def frequencies() -> Array:
-    """Return the frequencies of the fit: zero, the low ones where m = 0 is logarithmic, the waves, the high ones."""
-    return np.concatenate([[0.0], np.geomspace(0.001, 0.4, 32), np.arange(0.45, 7.0, 0.08), np.geomspace(7.0, 30.0, 22)])
+def frequencies() -> tuple[Array, Array, Array]:
+    """Return the frequencies of the multipoles (the low ones, where m = 0 is logarithmic, and the waves), of short waves for
+    which more multipoles are needed, and those that are beyond multipoles.
+    """
+    waves = np.concatenate([np.geomspace(0.001, 0.4, 32), np.arange(0.45, 7.0, 0.08), np.geomspace(7.0, 19.0, 20)])
+    return waves, np.linspace(20.0, 34.0, 16), np.geomspace(36.0, 300.0, 14)
 
 
-def exact(m: int, count: int, omega: Array) -> tuple[Array, Array, Array]:
-    """Return N_inf (J, J), N - N_inf at the frequencies (f, J, J), the first of them zero, and K(0+) (J, J)."""
-    sea = outer_map(m, count)
-    N_inf = sea.at_infinity
-    L = np.array([sea.at_zero.astype(complex)] + [sea.at(w) for w in omega[1:]]) - N_inf
-    return N_inf, L, initial_memory(m, count)
+def exact(m: int, count: int) -> tuple[Array, Array, Array, Array]:
+    """Return frequencies (f,) from zero on, N_inf (J, J), L = N - N_inf at them (f, J, J), and K(0+) (J, J)."""
+    waves, short, beyond = frequencies()
+    sea, finer, initial = outer_map(m, count), outer_map(m, count, multipoles=2 * MULTIPOLES), initial_memory(m, count)
+    N_inf = finer.at_infinity
+    L = np.array([finer.at_zero + 0j] + [sea.at(w) for w in waves] + [finer.at(w) for w in short]) - N_inf
+    L_beyond = short_waves(m, short, L[-len(short) :], initial, beyond)
+    return np.concatenate([[0.0], waves, short, beyond]), N_inf, np.concatenate([L, L_beyond]), initial
 
 
 def build_mode(m: int, *, count: int = FUNCTIONS, oscillators: int = OSCILLATORS) -> dict[str, Array]:
     """Return what is stored of one azimuthal mode, and the largest error over the largest entry of N - N_inf."""
-    omega = frequencies()
-    N_inf, L, initial = exact(m, count, omega)
+    omega, N_inf, L, initial = exact(m, count)
     w, b, d = fitted(omega, L, initial, oscillators)
     order = np.argsort(w)
     error = np.abs(b.T @ solved(w, b, d, omega) - L).max() / np.abs(L).max()

@@ -12,8 +12,8 @@ from ogilvie.bem.outer_poles import common_poles, damped_oscillators, phase
 
 Array = NDArray[Any]
 
-_STAGES = ((10.0, 150), (1e5, 60), (1e9, 60))  # weight of K(0+), iterations
-_ENOUGH = 1e-4  # relative gain of the cost below which an iteration is the last
+_STAGES = ((10.0, 250), (1e5, 60), (1e9, 60))  # weight of K(0+), iterations
+_ENOUGH = 1e-5  # relative gain of the cost below which an iteration is the last
 
 
 def fitted(omega: Array, L: Array, initial: Array, count: int) -> tuple[Array, Array, Array]:
@@ -60,7 +60,7 @@ def _start(problem: Problem, weight: Array, count: int) -> Array:
 
 
 def _radiated(L: Array, omega: Array) -> Array:
-    """h (f, J) with -omega Im L = omega^2 h h^T, its sign continuous."""
+    """h (f, J) with -omega Im L = omega^2 h h^T, its sign continuous: frequencies so dense that h turns little in between."""
     strength, axes = np.linalg.eigh(-L.imag / omega[:, None, None])
     h = np.sqrt(np.maximum(strength[:, -1:], 0.0)) * axes[:, :, -1]
     turns = np.where((h[1:] * h[:-1]).sum(axis=1) < 0, -1.0, 1.0)
@@ -72,12 +72,12 @@ def descended(problem: Problem, p: Array, iterations: int) -> Array:
     damping = 1e-6
     cost, gradient, normal = problem.normal(p)
     for _ in range(iterations):
-        for _ in range(15):
+        for _ in range(20):
             matrix = normal + damping * np.trace(normal) / len(p) * np.eye(len(p))
             _, step, failed = scipy.linalg.lapack.dposv(matrix, gradient, overwrite_a=True)
             if not failed and problem.cost(p - step) < cost:
                 break
-            damping *= 4
+            damping *= 8
         else:
             return p
         before, p, damping = cost, p - step, max(damping / 5, 1e-16)

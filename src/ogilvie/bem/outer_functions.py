@@ -98,7 +98,7 @@ def gauss(n: int) -> tuple[Array, Array]:
     Examples
     --------
     >>> x, w = gauss(3)
-    >>> round(w @ x**5, 12)
+    >>> round(float(w @ x**5), 12)
     0.166666666667
     """
     x, w = np.polynomial.legendre.leggauss(n)
@@ -133,7 +133,7 @@ def legendre_at_surface(m: int, top: int) -> tuple[Array, Array]:
     Examples
     --------
     >>> value, slope = legendre_at_surface(0, 3)
-    >>> value[2], slope[1]  # -sqrt(5) / 2, sqrt(3)
+    >>> float(value[2]), float(slope[1])  # -sqrt(5) / 2, sqrt(3)
     (-1.1180..., 1.7320...)
     """
     l = np.arange(m, top + 1, dtype=float)

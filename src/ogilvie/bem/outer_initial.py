@@ -9,11 +9,12 @@ from ogilvie.bem.outer_functions import depth_functions, depth_taylor, gauss, le
 
 Array = NDArray[Any]
 
-_SMALLEST = 2.0**-15  # u = log(R) down to which the series is summed
+_SMALLEST = 2.0**-12  # u = log(R) down to which the series is summed
 _LARGEST = 32.0
 _LOG_ACCURACY = 36.0
 _QUADRATURE = 800  # multipoles up to here by quadrature, beyond by the asymptotic series
 _PER_PANEL = 16
+_FITTED, _ORDER = 3, 5  # panels that the behaviour below the smallest u is fitted to, powers of u
 
 
 def initial_memory(m: int, count: int) -> Array:
@@ -21,8 +22,8 @@ def initial_memory(m: int, count: int) -> Array:
 
     Notes
     -----
-    An impulse q delta(t) leaves phi = 0 on the surface with psi = -sum_l E_lj P_l / ((l + 1) r^(l+1)), l - m odd, and the surface
-    rises with psi_y. By Green's identity the potential on the control surface then starts to change as
+    An impulse q delta(t) leaves phi = 0 on the surface with psi = -sum_l E_lj P_l / ((l + 1) r^(l+1)), l - m odd, and the
+    surface rises with psi_y. By Green's identity the potential on the control surface then starts to change as
 
         K(0+) = int_1^inf psi_y psi_y R dR = int_0^inf g g^T du,   g_j(u) = sum_l a_lj exp(-(l + 1) u),   R = exp(u),
         a_lj = E_lj P_l'(0) / (l + 1),
@@ -30,12 +31,12 @@ def initial_memory(m: int, count: int) -> Array:
     a positive form. The vertical velocity psi_y is logarithmic at the control surface. The integrals E_lj of P_l y_mj are taken
     by Gauss points for low degrees; for high ones integration by parts gives
     E_lj = P_l'(0) sum_k (-1)^k (D^k y_mj)(0) / (l (l + 1))^(k+1), D y = ((1 - x^2) y')' - m^2 y / (1 - x^2).
-    Below the smallest u the sum of u^k (A_k log u + B_k), k = 0..2, is fitted to g.
+    Below the smallest u the sum of u^k (A_k log u + B_k), k = 0..4, is fitted to g.
 
     Examples
     --------
     >>> c = np.array([1 / 2, 1 / 12**0.5])  # cos(theta): heave of the hemisphere
-    >>> round(3 * c @ initial_memory(0, 2) @ c, 9)  # 3/16
+    >>> round(float(3 * c @ initial_memory(0, 2) @ c), 9)  # 3/16
     0.1875
     """
     l, a = _amplitudes(m, count, int(_LOG_ACCURACY / _SMALLEST))
@@ -44,7 +45,7 @@ def initial_memory(m: int, count: int) -> Array:
     u = (edges[:-1, None] * (1 + x)).ravel()
     weight = (edges[:-1, None] * w).ravel()
     g = np.array([np.exp(-v * (l[:n] + 1)) @ a[:n] for v in u for n in [1 + int(_LOG_ACCURACY / v / 2)]])
-    near = slice(0, 4 * _PER_PANEL)
+    near = slice(0, _FITTED * _PER_PANEL)
     fit = np.linalg.lstsq(_logarithmic(u[near]), g[near], rcond=None)[0]
     edges = _SMALLEST * np.exp2(-np.arange(50.0))
     u0, w0 = (edges[1:, None] * (1 + x)).ravel(), (edges[1:, None] * w).ravel()
@@ -53,9 +54,9 @@ def initial_memory(m: int, count: int) -> Array:
 
 
 def _logarithmic(u: Array) -> Array:
-    """Return u^k log u and u^k for k = 0..2, u in units of the smallest."""
+    """Return u^k log u and u^k for k = 0..4, u in units of the smallest."""
     v = u / _SMALLEST
-    return np.column_stack([v**k * f for k in range(3) for f in (np.log(v), np.ones_like(v))])
+    return np.column_stack([v**k * f for k in range(_ORDER) for f in (np.log(v), np.ones_like(v))])
 
 
 def _amplitudes(m: int, count: int, top: int) -> tuple[Array, Array]:

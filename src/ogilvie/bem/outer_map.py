@@ -1,7 +1,7 @@
 """The open sea seen from the control hemisphere: potential on it from its normal velocity, per azimuthal mode and frequency.
 
-phi_C = -N(omega) q in the depth functions of `outer_functions`, N complex symmetric; time factor exp(+i omega t). Lengths in the
-control radius Rc, time in sqrt(Rc / g).
+phi_C = -N(omega) q in the depth functions of `outer_functions`, N complex symmetric; time factor exp(+i omega t). Lengths
+in the control radius Rc, time in sqrt(Rc / g).
 """
 
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ from ogilvie.errors import InputError
 
 Array = NDArray[Any]
 
-MULTIPOLES = 400
+MULTIPOLES = 500
 _SHARES = (1.0, 0.75, 0.5)  # of the multipoles, from which the sums are extrapolated
 _POWERS = (4.0, 5.0)
 
@@ -119,7 +119,7 @@ def outer_map(m: int, count: int, *, multipoles: int = MULTIPOLES) -> OuterMap:
     --------
     >>> sea = outer_map(0, 2, multipoles=100)
     >>> c = np.array([1 / 2, 1 / 12**0.5])  # x = cos(theta): heave of the hemisphere
-    >>> round(3 * c @ sea.at_infinity @ c, 6)  # added mass over 2/3 pi rho a^3
+    >>> round(float(3 * c @ sea.at_infinity @ c), 6)  # added mass over 2/3 pi rho a^3
     0.5
     """
     x, w = gauss(2 * multipoles + 100)
@@ -154,7 +154,7 @@ def extrapolated(sums: Array, h: Array, powers: tuple[float, ...]) -> Array:
     Examples
     --------
     >>> h = np.array([0.1, 0.2, 0.3])
-    >>> extrapolated(1.0 + h**2 - h**3, h, (2.0, 3.0)).round(12)
+    >>> float(extrapolated(1.0 + h**2 - h**3, h, (2.0, 3.0)).round(12))
     1.0
     """
     scaled = h / h[0]

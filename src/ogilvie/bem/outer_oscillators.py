@@ -66,36 +66,40 @@ class Problem:
         (u* . u')(v* . v') + (u* . v')(v* . u'): the large Jacobian is never formed.
         """
         w, b, d = self.split(p)
-        n, J = b.shape
-        g, s, c, g0 = self.weight, 1j * self.omega, -(w**2), self.initial_weight
         Y = solved(w, b, d, self.omega)
         E, first = b.T @ Y - self.target, b.T @ b - self.initial
-        Z, Yc = d @ Y, Y.conj()
+        return self._cost(E, first), self._slope(w, b, d @ Y, Y, E, first), self._curvature(w, b, d @ Y, Y)
+
+    def _slope(self, w: Array, b: Array, Z: Array, Y: Array, E: Array, first: Array) -> Array:
+        """Half the gradient of the cost."""
+        g, s = self.weight, 1j * self.omega
+        EY = Y.conj() @ E
+        slope_w = -(w**2) * np.einsum("f,fki,fki->k", g, EY, Y.conj()).real
+        slope_b = np.einsum("f,fki->ki", g, EY).real + self.initial_weight * b @ first
+        slope_d = np.einsum("f,fki,fi->k", g * s, EY, Z.conj()).real
+        return np.concatenate([slope_w, slope_b.ravel(), slope_d])
+
+    def _curvature(self, w: Array, b: Array, Z: Array, Y: Array) -> Array:
+        """Half the Gauss-Newton matrix of the cost, in blocks of log w, b and d."""
+        n, J = b.shape
+        g, s, c, g0 = self.weight, 1j * self.omega, -(w**2), self.initial_weight
+        Yc, y = Y.conj(), Y.reshape(len(g), n * J)
         G = Yc @ Y.transpose(0, 2, 1)  # (f, n, n)
         H = np.einsum("fki,fi->fk", Yc, Z)
-        EY = Yc @ E
-        slope_w = c * np.einsum("f,fki,fki->k", g, EY, Yc).real
-        slope_b = np.einsum("f,fki->ki", g, EY).real + g0 * b @ first
-        slope_d = np.einsum("f,fki,fi->k", g * s, EY, Z.conj()).real
-
-        gG = g[:, None, None] * G
-        gsH = (g * s)[:, None] * H
+        gG, gsH, sH = g[:, None, None] * G, (g * s)[:, None] * H, self.omega[:, None] * H
         ww = 2 * np.outer(c, c) * np.einsum("fkl,fkl->kl", gG, G).real
         wb = 2 * c[:, None] * np.einsum("fki,fkl->kli", Yc, gG, optimize=True).real.reshape(n, n * J)
         wd = -2 * c[:, None] * np.einsum("fkl,fk->kl", G, gsH).real
-        y = Y.reshape(len(g), n * J)
         bb = _real_product(g[:, None] * y, y.conj()).reshape(n, J, n, J).transpose(2, 1, 0, 3).copy()
         bb += g0 * np.einsum("li,kj->kilj", b, b)
         i = np.arange(J)
         bb[:, i, :, i] += gG.real.sum(axis=0) + g0 * b @ b.T
         bd = _real_product(y, gsH).reshape(n, J, n).transpose(2, 1, 0)
         bd = bd + _real_product((s[:, None, None] * gG).reshape(len(g), n * n), Z).reshape(n, n, J).transpose(0, 2, 1)
-        sH = self.omega[:, None] * H
         dd = np.einsum("f,fkl->kl", self.omega**2 * (np.abs(Z) ** 2).sum(axis=1), gG).real
         dd += _real_product(g[:, None] * sH, sH.conj())
-        bb, bd = bb.reshape(n * J, n * J), -bd.reshape(n * J, n)
-        normal = np.block([[ww, wb, wd], [wb.T, bb, bd], [wd.T, bd.T, dd]])
-        return self._cost(E, first), np.concatenate([slope_w, slope_b.ravel(), slope_d]), normal
+        b_b, b_d = bb.reshape(n * J, n * J), -bd.reshape(n * J, n)
+        return np.block([[ww, wb, wd], [wb.T, b_b, b_d], [wd.T, b_d.T, dd]])
 
 
 def solved(w: Array, b: Array, D: Array, omega: Array) -> Array:

@@ -1,7 +1,7 @@
 """Waves outside the unit hemisphere: the wave source multipole and the wave-free multipoles of each azimuthal mode.
 
-Deep water, lengths in the control radius, time in sqrt(Rc / g); y = r cos(theta) is the depth, R = r sin(theta) the distance from
-the vertical axis. Real parts of f(r, theta) exp(-i omega t), k0 = omega^2; on the surface phi_y + k0 phi = 0.
+Deep water, lengths in the control radius, time in sqrt(Rc / g); y = r cos(theta) is the depth, R = r sin(theta) the distance
+from the vertical axis. Real parts of f(r, theta) exp(-i omega t), k0 = omega^2; on the surface phi_y + k0 phi = 0.
 """
 
 from dataclasses import dataclass
@@ -17,6 +17,7 @@ Array = NDArray[Any]
 
 _SMALLEST = 1e-9  # of the wave numbers on the ray: the integrand of S_m is at most of order k there
 _PER_PANEL = 16
+_GROWTH, _LONGEST = 1.75, 8.0  # of the panels: ratio of neighbours, greatest length
 _STEEP = np.pi / 4  # from here on the Hankel function on the ray k = tau exp(i theta)
 _TURN = np.pi / 12  # of the ray nearer to the axis
 
@@ -95,9 +96,9 @@ def wave_source(m: int, x: Array) -> WaveSource:
 
 
 def _ray(last: float) -> tuple[Array, Array]:
-    """Gauss points and weights on panels that double in length, from `_SMALLEST` to `last`."""
-    edges = np.geomspace(_SMALLEST, last, 1 + int(np.ceil(np.log2(last / _SMALLEST) * 1.25)))
-    edges[0] = 0.0
+    """Gauss points and weights from 0 to `last`, on panels that grow with k up to the length that a wave allows."""
+    growing = _SMALLEST * _GROWTH ** np.arange(np.log(_LONGEST / (_GROWTH - 1) / _SMALLEST) / np.log(_GROWTH))
+    edges = np.concatenate([[0.0], growing, np.arange(growing[-1] + _LONGEST, last + _LONGEST, _LONGEST)])
     u, w = gauss(_PER_PANEL)
     length = np.diff(edges)
     return (edges[:-1, None] + length[:, None] * u).ravel(), (length[:, None] * w).ravel()
