@@ -10,6 +10,7 @@ from ogilvie.mesh.chebyshev import interpolation
 Array = NDArray[np.float64]
 
 _EVEN = 0.25  #: weight of even steps round the circle against columns that meet it, and the hull, at right angles
+_LEAST_END = 1.0  #: slope of the steps at the circle
 
 
 def column_azimuths(line: Waterline, radius: float) -> Array:
@@ -83,8 +84,9 @@ def free_surface_panels(line: Waterline, circle: Array, *, rows: int, last: floa
 
     Notes
     -----
-    Columns are straight. Steps along them follow a cubic whose end slopes, between 0 (power-2 grading) and 2, are chosen so
-    that panels next to the waterline are as long as the hull's panels there are high, and those next to the circle `last`.
+    Columns are straight. Steps along them follow a cubic whose end slopes are chosen so that panels next to the waterline are
+    as long as the hull's panels there are high, and those next to the circle `last`, as far as slopes between 0 (power-2
+    grading) and 2 at the waterline and between 1 and 2 at the circle go.
     """
     q = line.pieces.shape[1]
     ends = np.vstack([circle[:, 0], circle[-1:, -1]])[:, :2]
@@ -109,5 +111,5 @@ def _steps(rows: int, first: float, last: float) -> Array:
     M = np.array([[rise, -fall], [-fall, rise]])
     a, b = np.linalg.solve(M, [first - base, last - base]) if rows > 2 else (0.0, 2.0)
     a = float(np.clip(a, 0.0, 2.0))
-    b = float(np.clip((last - base + a * fall) / rise, 0.0, 2.0)) if rows > 2 else 2.0
+    b = float(np.clip((last - base + a * fall) / rise, _LEAST_END, 2.0)) if rows > 2 else 2.0
     return divisions(rows, start=a, end=b)

@@ -59,6 +59,8 @@ def waterline(hull: Array, *, planes: tuple[str, ...], near: float) -> Waterline
         raise InputError("waterline: a hull with panels up to z = 0 expected, none found. Clip it there: mesh.immersed().")
     pieces, heights = sides(hull)[owner, side], _heights(hull)[owner, side]
     order, closed = _chain(pieces, planes, near)
+    if closed and planes:
+        raise InputError(f"waterline: one line round the hull expected, found one apart from the plane of symmetry. {_SEVERAL}")
     pieces, heights = pieces[order], heights[order]
     turn = pieces[:, :, 0], pieces[:, :, 1]
     if float(_swept(*turn)) < 0.0:
