@@ -10,7 +10,7 @@ from ogilvie.bem.curved import BODY, CONTROL, FREE, CurvedMesh
 from ogilvie.bem.curves import places
 from ogilvie.bem.free_surface_mesh import column_azimuths, free_surface_panels
 from ogilvie.bem.inner_checks import corner_angles, positions_and_normals
-from ogilvie.bem.waterline import Waterline, waterline
+from ogilvie.bem.waterline import Waterline, fanned, waterline
 from ogilvie.errors import InputError
 from ogilvie.mesh.panels import PanelMesh
 
@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 _ROOM = 1.05  #: least control radius over the distance of the hull's farthest point
 _LEAST_ROWS = 5  #: of panels on the control surface, so that three nodes in each make more than 12
-_ROWS, _DEPTH = 0.6, 0.5  #: panels from waterline to circle, and down from it, for each panel round a quarter of the circle
+_ROWS, _DEPTH = 0.6, 0.45  #: panels from waterline to circle, and down from it, for each panel round a quarter of the circle
 _MANY = 1.5  #: times as many columns as panels of the given size make: the control surface gets its own division
 
 
@@ -47,11 +47,13 @@ def enclosed(
     panels, line = panels - centre, Waterline(line.pieces - centre, line.heights, line.closed)
     radius = _radius(control_radius, panels)
     _require_one_turn(line)
+    line = fanned(line)
     azimuth = column_azimuths(line, radius)
     own = _division(azimuth, line, size)
     quarter = (len(own) - 1) * 0.5 * np.pi / (own[-1] - own[0])
     depth = count("depth", depth, max(3, _LEAST_ROWS - rows_below(own), round(_DEPTH * quarter)))
-    rows = count("rows", rows, max(4, round(_ROWS * quarter)))
+    columns = quarter * (1.0 - sum(line.fans) / (len(line.pieces)))
+    rows = count("rows", rows, max(4, round(_ROWS * columns)))
     circle = radius * _on_circle(azimuth, q)
     water = free_surface_panels(line, circle, rows=rows, last=radius * first_row(depth))
     _require_unfolded(water)

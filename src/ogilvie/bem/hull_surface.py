@@ -15,6 +15,7 @@ Array = NDArray[np.float64]
 Representation = Literal["auto", "smooth", "panels"]
 
 _OFF = 0.004  #: of the beam, most that corners of flat panels may be off a fitted surface (rms)
+_SIZES = (1.0, 0.9, 1.15)  #: of the size asked for, tried until no panel is folded
 _VOLUME = 0.01  #: most that the volumes may differ
 
 
@@ -60,7 +61,7 @@ def represented(hull: PanelMesh, wish: Representation, *, size: float, q: int) -
         return flat
     try:
         half = hull.with_symmetry("xz")
-        fit = fitted_panels(half, size=size, q=q)
+        fit = _best_fit(half, size, q)
     except InputError as error:
         if wish == "smooth":
             raise
@@ -69,6 +70,16 @@ def represented(hull: PanelMesh, wish: Representation, *, size: float, q: int) -
     if wish == "auto" and not _is_good(fit, half):
         return (*flat[:2], f"{flat[2]}; no good {told}")
     return fit.panels, half, told
+
+
+def _best_fit(hull: PanelMesh, size: float, q: int) -> FittedHull:
+    """Return the first good fit with panels of about that size, else the one with the size itself."""
+    fits = []
+    for factor in _SIZES:
+        fits.append(fitted_panels(hull, size=factor * size, q=q))
+        if _is_good(fits[-1], hull):
+            return fits[-1]
+    return fits[0]
 
 
 def _told(fit: FittedHull, hull: PanelMesh) -> str:
