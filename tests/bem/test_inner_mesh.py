@@ -37,8 +37,8 @@ def test_boundary_is_closed_and_encloses_half_a_ball_less_the_hull(case):
     assert report.closure < 1e-9
     assert report.displacement == pytest.approx(hull.volume, rel=2e-6)
     assert report.volume == pytest.approx(2.0 / 3.0 * np.pi * mesh.radius**3 - hull.volume, rel=1e-7)
-    assert report.jacobian > 0.1
-    assert np.rad2deg(report.angle) > 14.0
+    assert report.jacobian > (0.01 if "Wigley" in hull.name else 0.2)  # a fan of columns at a sharp bow starts in one point
+    assert np.rad2deg(report.angle) > (14.0 if mesh.symmetry == "none" else 36.0)
 
 
 def test_normals_point_out_of_the_fluid(case):
@@ -55,6 +55,7 @@ def test_normals_point_out_of_the_fluid(case):
 def test_every_side_is_shared_with_one_neighbour_or_lies_in_a_plane_of_symmetry(case):
     _, mesh = case
     all_sides = sides(mesh.points).reshape(-1, mesh.degree, 3)
+    all_sides = all_sides[np.ptp(all_sides, axis=1).max(axis=1) > 1e-9 * mesh.radius]  # fans start in a point
     if mesh.symmetry == "none":  # the circle is divided twice, by columns and by the control surface
         on_circle = np.abs(np.linalg.norm(all_sides[..., :2], axis=-1) - mesh.radius).max(axis=1) < 1e-6 * mesh.radius
         all_sides = all_sides[~on_circle | (np.abs(all_sides[..., 2]).max(axis=1) > 1e-6 * mesh.radius)]
@@ -79,7 +80,7 @@ def test_panels_on_both_sides_of_the_circle_are_of_like_size(case):
         )
         for part in (FREE, CONTROL)
     }
-    assert 0.5 < height[FREE] / height[CONTROL] < 3.0
+    assert 0.5 < height[FREE] / height[CONTROL] < 3.2
 
 
 def test_hemisphere_within_500_nodes_and_more_than_12_rows_in_depth():
@@ -132,6 +133,17 @@ def test_jittered_boundary_still_closes(jittered):
     assert report.closure < 1e-7
     assert report.jacobian > 0.0
     assert report.volume == pytest.approx(2.0 / 3.0 * np.pi * 7.0, rel=1e-5)
+
+
+def test_columns_fan_out_from_a_sharp_bow_only():
+    """The angle ahead of a bow of 13.5 deg, 166 deg, is divided into three."""
+    for hull, fans in ((shapes.wigley(kind="III"), 2), (shapes.box(4.0, 1.0, 0.5), 0)):
+        mesh = inner_mesh(hull)
+        water = mesh.points[mesh.part == FREE]
+        points = np.ptp(water[:, 0], axis=1).max(axis=1) == 0.0
+        assert points.sum() == fans
+        directions = [np.arctan2(*(p[-1, k] - p[0, k])[1::-1]) for p in water[points] for k in (0, -1)]
+        assert not fans or np.diff(sorted(directions)).max() < np.deg2rad(60.0)
 
 
 @pytest.mark.parametrize("azimuths", [[0, 20, 50, 90], [0, 10, 30, 55, 85, 120, 150, 180], [0, 30, 60, 90, 130, 150, 180]])

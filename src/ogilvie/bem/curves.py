@@ -53,31 +53,31 @@ def backwards(side: Array) -> Array:
 
 
 def block(bottom: Array, top: Array, left: Array, right: Array) -> Array:
-    """Return panels (n_u n_v, q, q, 3) between four sides in pieces.
+    """Return panels (n_u n_v, q, q, axes) between four sides in pieces.
 
     Parameters
     ----------
-    bottom, top : (n_u, q, 3) arrays
+    bottom, top : (n_u, q, axes) arrays
         Sides at v = 0 and 1, along u.
-    left, right : (n_v, q, 3) arrays
-        Sides at u = 0 and 1, along v.
+    left, right : (n_v, q, axes) arrays
+        Sides at u = 0 and 1, along v; axes: 2 or 3 coordinates.
 
     Notes
     -----
     Transfinite interpolation (Coons) with the mean share of the length along the two sides as blending function: the sides
     of the panels on the border are the given ones.
     """
-    nu, q, nv = len(bottom), bottom.shape[1], len(left)
-    b, t, l, r = (side.reshape(-1, 3) for side in (bottom, top, left, right))
+    nu, q, nv, axes = len(bottom), bottom.shape[1], len(left), bottom.shape[2]
+    b, t, l, r = (side.reshape(-1, axes) for side in (bottom, top, left, right))
     u = 0.5 * (_share(b) + _share(t))[:, None, None]
     v = 0.5 * (_share(l) + _share(r))[None, :, None]
     ruled = (1 - v) * b[:, None] + v * t[:, None] + (1 - u) * l[None] + u * r[None]
     grid = ruled - (1 - u) * ((1 - v) * b[0] + v * t[0]) - u * ((1 - v) * b[-1] + v * t[-1])
-    return np.asarray(grid.reshape(nu, q, nv, q, 3).transpose(0, 2, 1, 3, 4).reshape(nu * nv, q, q, 3))
+    return np.asarray(grid.reshape(nu, q, nv, q, axes).transpose(0, 2, 1, 3, 4).reshape(nu * nv, q, q, axes))
 
 
 def _share(points: Array) -> Array:
-    """Return the share of the length of a polygon (n, 3) up to each of its points."""
+    """Return the share of the length of a polygon (n, axes) up to each of its points."""
     length = np.cumsum(np.r_[0.0, np.linalg.norm(np.diff(points, axis=0), axis=1)])
     return np.asarray(length / length[-1])
 

@@ -4,12 +4,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ogilvie.bem.curves import divisions, places
-from ogilvie.bem.waterline import Waterline
+from ogilvie.bem.waterline import Waterline, tip_angles
 from ogilvie.mesh.chebyshev import interpolation
 
 Array = NDArray[np.float64]
 
 _EVEN = 0.25  #: weight of even steps round the circle against columns that meet it, and the hull, at right angles
+_LEAST_END = 1.0  #: slope of the steps at the circle
 
 
 def column_azimuths(line: Waterline, radius: float) -> Array:
@@ -18,8 +19,9 @@ def column_azimuths(line: Waterline, radius: float) -> Array:
     Notes
     -----
     They make the least sum of squares of: the sine of the angle between column and the waterline's normal (at a corner:
-    their mean), the sine of the angle between column and radius, and the logarithm of the ratio of neighbouring steps
-    round the circle, times 1/4. The steps are the exponentials of the unknowns, so that columns never cross.
+    their mean; in a fan: equal angles), the sine of the angle between column and radius, and the logarithm of the ratio of
+    neighbouring steps round the circle, times 1/4. The steps are the exponentials of the unknowns, so that columns never
+    cross.
     """
     from scipy.optimize import least_squares
 
@@ -43,7 +45,7 @@ def column_azimuths(line: Waterline, radius: float) -> Array:
 
     if n == 1:
         return np.array([start, start + total])
-    found = least_squares(misfit, np.log(np.maximum(np.diff(polar), 1e-3)), max_nfev=200)
+    found = least_squares(misfit, np.log(np.maximum(np.diff(polar), 0.02)), max_nfev=200)
     azimuth = azimuths(found.x)
     azimuth[-1] = start + total
     return azimuth
@@ -51,16 +53,30 @@ def column_azimuths(line: Waterline, radius: float) -> Array:
 
 def _normals(line: Waterline) -> Array:
     """Return unit normals (n + 1, 2) of the waterline, away from the hull, at the ends of its pieces; means at corners."""
-    p = line.pieces[..., :2]
+    first, last = line.fans
+    p = line.pieces[first : len(line.pieces) - last, :, :2]
     q = p.shape[1]
     ends = interpolation(q, [-1.0, -0.98, 0.98, 1.0])
     at = np.einsum("kq,nqi->nki", ends, p)
     tangent = np.stack([at[:, 1] - at[:, 0], at[:, 3] - at[:, 2]], axis=1)
     tangent /= np.linalg.norm(tangent, axis=-1, keepdims=True)
-    first, last = (tangent[-1, 1], tangent[0, 0]) if line.closed else (tangent[0, 0], tangent[-1, 1])
-    mean = np.vstack([first + tangent[0, 0], tangent[:-1, 1] + tangent[1:, 0], tangent[-1, 1] + last])
+    before, after = (tangent[-1, 1], tangent[0, 0]) if line.closed else (tangent[0, 0], tangent[-1, 1])
+    mean = np.vstack([before + tangent[0, 0], tangent[:-1, 1] + tangent[1:, 0], tangent[-1, 1] + after])
     mean /= np.maximum(np.linalg.norm(mean, axis=1, keepdims=True), 1e-300)
-    return np.stack([mean[:, 1], -mean[:, 0]], axis=-1)
+    normal = np.stack([mean[:, 1], -mean[:, 0]], axis=-1)
+    angles = tip_angles(line)
+    ahead = np.arctan2(*line.corners[[0, -1], ::-1].T)
+    if first:
+        normal = np.vstack([_spread(ahead[0], 0.5 * angles[0], first), normal[1:]])
+    if last:
+        normal = np.vstack([normal[:-1], _spread(ahead[1], -0.5 * angles[1], last)[::-1]])
+    return normal
+
+
+def _spread(axis: float, angle: float, n: int) -> Array:
+    """Return n + 1 unit vectors from the direction `axis` to one turned by `angle`, rad."""
+    a = axis + angle * np.linspace(0.0, 1.0, n + 1)
+    return np.stack([np.cos(a), np.sin(a)], axis=-1)
 
 
 def free_surface_panels(line: Waterline, circle: Array, *, rows: int, last: float) -> Array:
@@ -83,8 +99,9 @@ def free_surface_panels(line: Waterline, circle: Array, *, rows: int, last: floa
 
     Notes
     -----
-    Columns are straight. Steps along them follow a cubic whose end slopes, between 0 (power-2 grading) and 2, are chosen so
-    that panels next to the waterline are as long as the hull's panels there are high, and those next to the circle `last`.
+    Columns are straight. Steps along them follow a cubic whose end slopes are chosen so that panels next to the waterline are
+    as long as the hull's panels there are high, and those next to the circle `last`, as far as slopes between 0 (power-2
+    grading) and 2 at the waterline and between 1 and 2 at the circle go.
     """
     q = line.pieces.shape[1]
     ends = np.vstack([circle[:, 0], circle[-1:, -1]])[:, :2]
@@ -109,5 +126,5 @@ def _steps(rows: int, first: float, last: float) -> Array:
     M = np.array([[rise, -fall], [-fall, rise]])
     a, b = np.linalg.solve(M, [first - base, last - base]) if rows > 2 else (0.0, 2.0)
     a = float(np.clip(a, 0.0, 2.0))
-    b = float(np.clip((last - base + a * fall) / rise, 0.0, 2.0)) if rows > 2 else 2.0
+    b = float(np.clip((last - base + a * fall) / rise, _LEAST_END, 2.0)) if rows > 2 else 2.0
     return divisions(rows, start=a, end=b)

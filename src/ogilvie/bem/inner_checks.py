@@ -24,7 +24,7 @@ class InnerReport:
     displacement : float
         Volume that the hull takes off the half ball, from the same integral over the hull alone, m3.
     jacobian : float
-        Least (x_u x x_v).m / |x_u x x_v|_max inside a panel, m its mean normal: <= 0 where a panel is folded.
+        Least |x_u x x_v| over its greatest value inside a panel; negative where the panel is folded.
     angle : float
         Least angle between the lines of u and v at the corners of a panel, or what the greatest lacks to 180 deg, rad.
     panels : tuple of int
@@ -59,13 +59,11 @@ def inspect_inner(mesh: CurvedMesh) -> InnerReport:
     images = len(mesh.images)
     total = sum(vector.sum(axis=0) * [sx, sy, 1.0] for sx, sy in mesh.images)
     hull = mesh.part == BODY
-    mean = vector / np.maximum(np.linalg.norm(vector, axis=1, keepdims=True), 1e-300)
-    size = np.linalg.norm(normal, axis=-1).max(axis=(1, 2))
     return InnerReport(
         closure=float(np.linalg.norm(total)) / mesh.radius**2,
         volume=images * float(flux.sum()),
         displacement=-images * float(flux[hull].sum()),
-        jacobian=float((np.einsum("nabk,nk->nab", normal, mean).min(axis=(1, 2)) / size).min()),
+        jacobian=float(jacobians(normal).min()),
         angle=float(corner_angles(mesh.points).min()),
         panels=tuple(int((mesh.part == k).sum()) for k in (BODY, FREE, CONTROL)),  # type: ignore[arg-type]
     )
@@ -78,6 +76,22 @@ def positions_and_normals(points: Array, u: Array, v: Array) -> tuple[Array, Arr
     x = np.einsum("ai,bj,nijk->nabk", U, V, points)
     xu, xv = np.einsum("ai,bj,nijk->nabk", U @ D, V, points), np.einsum("ai,bj,nijk->nabk", U, V @ D, points)
     return x, np.cross(xu, xv)
+
+
+def jacobians(normal: Array) -> Array:
+    """Return |x_u x x_v| over its greatest value in the panel, from values (n, n_u, n_v, 3) on a grid.
+
+    It is negative where the normal turns by more than 90 deg from the mean of its neighbours on the grid: there the panel is
+    folded.
+    """
+    size = np.linalg.norm(normal, axis=-1)
+    unit = normal / np.maximum(size, 1e-300)[..., None]
+    near = np.zeros_like(unit)
+    near[:, 1:] += unit[:, :-1]
+    near[:, :-1] += unit[:, 1:]
+    near[:, :, 1:] += unit[:, :, :-1]
+    near[:, :, :-1] += unit[:, :, 1:]
+    return np.asarray(np.sign((near * unit).sum(axis=-1)) * size / size.max(axis=(1, 2), keepdims=True))
 
 
 def corner_angles(points: Array) -> Array:

@@ -1,15 +1,18 @@
 """The waterline of a curved hull: sides of its panels at z = 0, in order round the hull."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ogilvie.bem.curves import backwards, sides
 from ogilvie.errors import InputError
+from ogilvie.mesh.chebyshev import interpolation
 
 Array = NDArray[np.float64]
 
+_SHARP = np.deg2rad(150.0)  #: angle of the fluid between centreline and waterline from which on an end is sharp
+_FAN = 2  #: columns that spread from a sharp end
 _SEVERAL = "Hulls that cross the water in several places, or have a moonpool, are not supported."
 
 
@@ -25,11 +28,14 @@ class Waterline:
         Height of the hull's panels below each end of a piece, m.
     closed : bool
         The last piece ends where the first one starts.
+    fans : pair of int
+        How many pieces at the start and at the end have no length: columns of the free surface spread there from one point.
     """
 
     pieces: Array
     heights: Array
     closed: bool
+    fans: tuple[int, int] = (0, 0)
 
     @property
     def corners(self) -> Array:
@@ -59,6 +65,8 @@ def waterline(hull: Array, *, planes: tuple[str, ...], near: float) -> Waterline
         raise InputError("waterline: a hull with panels up to z = 0 expected, none found. Clip it there: mesh.immersed().")
     pieces, heights = sides(hull)[owner, side], _heights(hull)[owner, side]
     order, closed = _chain(pieces, planes, near)
+    if closed and planes:
+        raise InputError(f"waterline: one line round the hull expected, found one apart from the plane of symmetry. {_SEVERAL}")
     pieces, heights = pieces[order], heights[order]
     turn = pieces[:, :, 0], pieces[:, :, 1]
     if float(_swept(*turn)) < 0.0:
@@ -67,6 +75,32 @@ def waterline(hull: Array, *, planes: tuple[str, ...], near: float) -> Waterline
         raise InputError(f"waterline: one line round the hull expected, several found that do not cross x = 0. {_SEVERAL}")
     at_ends = [heights[-1] if closed else heights[0], *(0.5 * (heights[1:] + heights[:-1])), heights[-1]]
     return Waterline(pieces, np.array(at_ends), closed)
+
+
+def fanned(line: Waterline) -> Waterline:
+    """Return the waterline with two pieces without length at each sharp end.
+
+    At such an end - a bow whose waterline makes less than 30 deg with the centreline - a single column would have an angle
+    near 180 deg; two more that start there leave no angle above 90 deg or so.
+    """
+    sharp = tuple(angle > 0.0 and not line.closed for angle in tip_angles(line))
+    first, last = (_FAN * s for s in sharp)
+    start, end = (np.broadcast_to(p, line.pieces.shape[1:])[None] for p in (line.pieces[0, 0], line.pieces[-1, -1]))
+    pieces = np.concatenate([np.repeat(start, first, axis=0), line.pieces, np.repeat(end, last, axis=0)])
+    heights = np.r_[np.repeat(line.heights[:1], first), line.heights, np.repeat(line.heights[-1:], last)]
+    return replace(line, pieces=pieces, heights=heights, fans=(first, last))
+
+
+def tip_angles(line: Waterline) -> tuple[float, float]:
+    """Return the angles of the fluid between centreline and waterline at both ends, rad; 0 where they are not sharp."""
+    out = []
+    for end in (0, 1):
+        p = line.pieces[line.fans[0] if end == 0 else -1 - line.fans[1], :, :2]
+        at = interpolation(p.shape[0], [-1.0, -0.98] if end == 0 else [1.0, 0.98]) @ p
+        ahead, d = at[0] / max(float(np.linalg.norm(at[0])), 1e-300), at[1] - at[0]
+        angle = float(np.arctan2(abs(ahead[0] * d[1] - ahead[1] * d[0]), ahead @ d))
+        out.append(angle if angle > _SHARP else 0.0)
+    return out[0], out[1]
 
 
 def _at_water(hull: Array, near: float) -> NDArray[np.bool_]:
