@@ -1,7 +1,7 @@
-"""Impulse responses of damped oscillators on an even time grid, exactly, whatever the step."""
+"""Impulse responses of damped oscillators on an even time grid, without a limit of the time step."""
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +11,17 @@ from ogilvie.errors import ConvergenceError, InputError
 Array = NDArray[Any]
 
 _NEGATIVE = 1e-3  # of the largest eigenvalue: a stiffness more negative than this is an error of the mesh, not of rounding
+_STEP = 0.025  # longest step between damping and motion
+
+
+class LateDamping(Protocol):
+    """Damping shape diag(rate ramp(t)) shape.T that is constant from `complete` on; see :mod:`ogilvie.bem.short_waves`."""
+
+    @property
+    def shape(self) -> Array: ...
+    @property
+    def complete(self) -> float: ...
+    def loss(self, t: float, h: float) -> Array: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,8 +34,8 @@ class Response:
         inputs.T z'(t), symmetric.
     least : float
         Lowest eigenvalue of the stiffness over the highest, before it was cut off at zero.
-    energy : (n_t,) array
-        Largest energy left of what the impulses gave, 1 at the start; it cannot grow.
+    energy : (n_t, k) array
+        Energy left of what each impulse gave, 1 at the start; it cannot grow.
     """
 
     K: Array
@@ -32,7 +43,9 @@ class Response:
     energy: Array
 
 
-def impulse_response(stiffness: Array, damping: Array, inputs: Array, *, dt: float, count: int) -> Response:
+def impulse_response(
+    stiffness: Array, damping: Array, inputs: Array, *, dt: float, count: int, late: LateDamping | None = None
+) -> Response:
     """Return inputs.T z'(t) at t = 0, dt, ... of z'' + damping z' + stiffness z = inputs delta(t).
 
     Parameters
@@ -43,6 +56,8 @@ def impulse_response(stiffness: Array, damping: Array, inputs: Array, *, dt: flo
     dt : float
     count : int
         Number of times.
+    late : LateDamping, optional
+        Further damping that comes into force by and by.
 
     Raises
     ------
@@ -57,9 +72,9 @@ def impulse_response(stiffness: Array, damping: Array, inputs: Array, *, dt: flo
 
         A = [[0, W], [-W, -U.T C U]],   d|x|^2/dt = -2 z'.T C z' <= 0:
 
-    the propagator E = exp(A dt) contracts, so neither the step nor its number can make anything grow. A.T = J A J with
-    J = diag(-1, 1), hence (inputs.T z')(i + j m) = (J E^i b).T E^(jm) b with b = (0, U.T inputs): two sequences of about
-    sqrt(count) vectors give all times.
+    the propagator E = exp(A h) contracts whatever the step. Late damping is put between, half before and half after, as
+    z' -> z' + shape (exp(-rate ramp h/2) - 1) shape.T z', which contracts too: nothing can grow. Once it is constant so is the step
+    M, and two sequences of about sqrt(count) vectors give all times: (inputs.T z')(i + j m) = (b.T M^i) (M^(jm) x).
 
     Examples
     --------
@@ -78,18 +93,13 @@ def impulse_response(stiffness: Array, damping: Array, inputs: Array, *, dt: flo
             "the mesh of the inner domain is too coarse or distorted."
         )
     W, n, k = np.sqrt(np.maximum(size, 0.0)), len(size), inputs.shape[1]
-    E = propagator(W, turn.T @ damping @ turn, dt)
-    b = np.concatenate([np.zeros((n, k)), turn.T @ inputs])
-    small = max(int(np.sqrt(count)), 1)
-    large = -(-count // small)
-    first = _powers(E, b, small)
-    second = _powers(np.linalg.matrix_power(E, small), b, large)
-    energy = np.repeat(np.max(np.sum(second**2, axis=1) / np.sum(b**2, axis=0), axis=1), small)[:count]
-    first[:, :n] *= -1.0
-    left = first.transpose(0, 2, 1).reshape(small * k, 2 * n)
-    K = left @ second.transpose(1, 0, 2).reshape(2 * n, large * k)
-    K = K.reshape(small, k, large, k).transpose(2, 0, 1, 3).reshape(-1, k, k)[:count]
-    return Response(0.5 * (K + K.transpose(0, 2, 1)), least, energy)
+    x = np.concatenate([np.zeros((n, k)), turn.T @ inputs])
+    C = turn.T @ damping @ turn
+    if late is None:
+        X = _even(propagator(W, C, dt), x, x, count)
+    else:
+        X = _late(propagator(W, C, dt / _parts(dt)), turn.T @ late.shape, late, x, dt, count)
+    return Response(0.5 * (X[0] + X[0].transpose(0, 2, 1)), least, X[1] / X[1][0])
 
 
 def propagator(W: Array, C: Array, dt: float) -> Array:
@@ -104,10 +114,47 @@ def propagator(W: Array, C: Array, dt: float) -> Array:
     return np.asarray(expm(dt * A))
 
 
-def _powers(E: Array, b: Array, count: int) -> Array:
-    """Return E^i b for i = 0..count - 1, shape (count, n, k)."""
+def _parts(dt: float) -> int:
+    return int(np.ceil(dt / _STEP - 1e-9))
+
+
+def _late(E: Array, shape: Array, late: LateDamping, b: Array, dt: float, count: int) -> tuple[Array, Array]:
+    """Return b.T x and |x|^2 at all times: single steps until the late damping is constant, then :func:`_even`."""
+    parts, n, x = _parts(dt), len(shape), b.copy()
+    h, first = dt / parts, min(count, int(np.ceil(late.complete / dt)) + 1)
+    K, energy = [b.T @ x], [np.sum(x**2, axis=0)]
+    for i in range((first - 1) * parts):
+        x[n:] += shape @ (late.loss(i * h, h / 2)[:, None] * (shape.T @ x[n:]))
+        x = E @ x
+        x[n:] += shape @ (late.loss((i + 1) * h, h / 2)[:, None] * (shape.T @ x[n:]))
+        if (i + 1) % parts == 0:
+            K.append(b.T @ x)
+            energy.append(np.sum(x**2, axis=0))
+    if first == count:
+        return np.array(K), np.array(energy)
+    half = np.eye(n) + shape @ (late.loss(late.complete, h / 2)[:, None] * shape.T)
+    M = E.copy()
+    M[n:] = half @ M[n:]
+    M[:, n:] = M[:, n:] @ half
+    K_after, energy_after = _even(np.linalg.matrix_power(M, parts), b, x, count - first + 1)
+    return np.concatenate([K, K_after[1:]]), np.concatenate([energy, energy_after[1:]])
+
+
+def _even(M: Array, b: Array, x: Array, count: int) -> tuple[Array, Array]:
+    """Return b.T M^i x (count, k, k) and |M^i x|^2 (count, k), the latter held for some steps."""
+    k, small = b.shape[1], max(int(np.sqrt(count)), 1)
+    large = -(-count // small)
+    left = _powers(M.T, b, small).transpose(0, 2, 1).reshape(small * k, -1)
+    right = _powers(np.linalg.matrix_power(M, small), x, large)
+    K = (left @ right.transpose(1, 0, 2).reshape(len(x), large * k)).reshape(small, k, large, k)
+    energy = np.repeat(np.sum(right**2, axis=1), small, axis=0)
+    return K.transpose(2, 0, 1, 3).reshape(-1, k, k)[:count], energy[:count]
+
+
+def _powers(M: Array, b: Array, count: int) -> Array:
+    """Return M^i b for i = 0..count - 1, shape (count, n, k)."""
     out = np.empty((count, *b.shape))
     out[0] = b
     for i in range(1, count):
-        out[i] = E @ out[i - 1]
+        out[i] = M @ out[i - 1]
     return out
