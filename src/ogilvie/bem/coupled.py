@@ -43,13 +43,15 @@ DepthFunctions = Callable[[int, Array, int], Array]
 
 @dataclass(frozen=True, eq=False)
 class CoupledSystem:
-    """z'' + damping z' + stiffness z = inputs v, phi_hull = inputs.T z - instantaneous v, in units of control radius and gravity.
+    """z'' + dampers dampers.T z' + stiffness z = inputs v, phi_hull = inputs.T z - instantaneous v, in units of control radius and gravity.
 
     Parameters
     ----------
     inner : InnerMap
-    stiffness, damping : (n, n) array
-        Symmetric, >= 0; z holds the free surface's modes, then the outer oscillators. Damping is that of the outer domain.
+    stiffness : (n, n) array
+        Symmetric, >= 0; z holds the free surface's modes, then the outer oscillators.
+    dampers : (n, r) array
+        Of the outer domain.
     inputs : (n, n_hull) array
         v and phi_hull are values at the hull's nodes times the square root of their weight (all images).
     instantaneous : (n_hull, n_hull) array
@@ -64,7 +66,7 @@ class CoupledSystem:
 
     inner: InnerMap
     stiffness: Array
-    damping: Array
+    dampers: Array
     inputs: Array
     instantaneous: Array
     motions: Array
@@ -152,11 +154,10 @@ def coupled_system(
         ) from None
     F, V, B = half @ T.qf, half @ T.vq.T, half @ sea.inputs.T
     S = np.block([[T.ff + F.T @ F, -F.T @ B], [-B.T @ F, np.diag(sea.frequencies**2) + B.T @ B]])
-    C = np.zeros_like(S)
-    C[len(modes) :, len(modes) :] = sea.dampers @ sea.dampers.T
+    D = np.concatenate([np.zeros((len(modes), sea.dampers.shape[1])), sea.dampers])
     h = np.concatenate([-(T.vf.T + F.T @ V), B.T @ V]) @ T.hull.T
     instantaneous = -T.hull @ (T.vv + V.T @ V) @ T.hull.T
-    return CoupledSystem(inner, S, C, h, instantaneous, motions, wavenumber, modes, sea.missed)
+    return CoupledSystem(inner, S, D, h, instantaneous, motions, wavenumber, modes, sea.missed)
 
 
 @dataclass(frozen=True, eq=False)

@@ -23,13 +23,10 @@ from ogilvie.units import GRAVITY, SEA_WATER
 Array = NDArray[Any]
 
 _DT = 0.035  # default time step over sqrt(control radius / g)
-_SIZE, _ROWS, _DEPTH = (
-    1.75,
-    5,
-    3,
-)  # panels: length over the mesher's default, rows on the free surface and on the control surface
+_SIZE = 1.75  # length of panels over the mesher's default
+_ROWS, _DEPTH = 6, 3  # rows of panels on the free surface and on the control surface
 _FINE = 1.5  # resolution from which on the panels at the waterline are divided twice
-_MODES, _FUNCTIONS = 11, 12  # azimuthal modes and depth functions of the outer domain
+_MODES, _FUNCTIONS = 17, 12  # azimuthal modes and depth functions of the outer domain
 _OTHER_LIMIT = 0.8  # of the wavenumber where damping sets in, in the solution for comparison
 _LAST = 0.05  # of the duration, whose largest |K| stands for what is left
 _FLOATS = 0.01  # difference of displaced and body's mass that is worth a note
@@ -155,10 +152,10 @@ def _mesh(hull: PanelMesh, control_radius: float | None, resolution: float) -> C
 def _solved(inner: InnerMap, sea: list[Any], centre: Array, dt: float, count: int) -> _Part:
     """Return the solution of one class and the one for comparison."""
     system = coupled_system(inner, sea, depth_functions, centre=centre)
-    response = impulse_response(system.stiffness, system.damping, system.forcing, dt=dt, count=count, late=short_waves(system))
+    response = impulse_response(system.stiffness, system.dampers, system.forcing, dt=dt, count=count, late=short_waves(system))
     mean = coupled_system(inner, sea, depth_functions, centre=centre, reciprocity="mean")
     late = short_waves(mean, limit=_OTHER_LIMIT * wavenumber_limit(inner.nodes))
-    other = impulse_response(mean.stiffness, mean.damping, mean.forcing, dt=dt, count=count, late=late)
+    other = impulse_response(mean.stiffness, mean.dampers, mean.forcing, dt=dt, count=count, late=late)
     return _Part(inner.dofs, system, response, other)
 
 

@@ -1,17 +1,20 @@
 """Impulse responses of damped oscillators on an even time grid, without a limit of the time step."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ogilvie.bem.rational import RationalStep
 from ogilvie.errors import ConvergenceError, InputError
 
 Array = NDArray[Any]
 
 _NEGATIVE = 1e-3  # of the largest eigenvalue: a stiffness more negative than this is an error of the mesh, not of rounding
-_STEP = 0.025  # longest step between damping and motion
+_STEP = 0.036  # longest step while late damping comes into force, and between it and the motion
+_SMALL = 450  # oscillators up to which powers of the matrix of a step are worth their making
 
 
 class LateDamping(Protocol):
@@ -44,14 +47,15 @@ class Response:
 
 
 def impulse_response(
-    stiffness: Array, damping: Array, inputs: Array, *, dt: float, count: int, late: LateDamping | None = None
+    stiffness: Array, dampers: Array, inputs: Array, *, dt: float, count: int, late: LateDamping | None = None
 ) -> Response:
-    """Return inputs.T z'(t) at t = 0, dt, ... of z'' + damping z' + stiffness z = inputs delta(t).
+    """Return inputs.T z'(t) at t = 0, dt, ... of z'' + dampers dampers.T z' + stiffness z = inputs delta(t).
 
     Parameters
     ----------
-    stiffness, damping : (n, n) array
+    stiffness : (n, n) array
         Symmetric, >= 0.
+    dampers : (n, r) array
     inputs : (n, k) array
     dt : float
     count : int
@@ -70,11 +74,12 @@ def impulse_response(
     -----
     With S = U diag(W^2) U.T and x = (W U.T z, U.T z'), x' = A x where
 
-        A = [[0, W], [-W, -U.T C U]],   d|x|^2/dt = -2 z'.T C z' <= 0:
+        A = [[0, W], [-W, -O O.T]],   O = U.T dampers,   d|x|^2/dt = -2 |O.T U.T z'|^2 <= 0.
 
-    the propagator E = exp(A h) contracts whatever the step. Late damping is put between, half before and half after, as
-    z' -> z' + shape (exp(-rate ramp h/2) - 1) shape.T z', which contracts too: nothing can grow. Once it is constant so is the step
-    M, and two sequences of about sqrt(count) vectors give all times: (inputs.T z')(i + j m) = (b.T M^i) (M^(jm) x).
+    Steps of :class:`ogilvie.bem.rational.RationalStep` contract whatever their length. Late damping is put between, half before and
+    half after, as z' -> z' + shape (exp(-rate ramp h/2) - 1) shape.T z', which contracts too: nothing can grow. Once it is constant
+    so is the step M, and for few oscillators two sequences of about sqrt(count) vectors give all times:
+    (inputs.T z')(i + j m) = (b.T M^i) (M^(j m) x).
 
     Examples
     --------
@@ -92,63 +97,64 @@ def impulse_response(
             f"The stiffness of the coupled system has an eigenvalue of {least:.1e} of the largest, 0 or more expected: "
             "the mesh of the inner domain is too coarse or distorted."
         )
-    W, n, k = np.sqrt(np.maximum(size, 0.0)), len(size), inputs.shape[1]
-    x = np.concatenate([np.zeros((n, k)), turn.T @ inputs])
-    C = turn.T @ damping @ turn
-    if late is None:
-        X = _even(propagator(W, C, dt), x, x, count)
-    else:
-        X = _late(propagator(W, C, dt / _parts(dt)), turn.T @ late.shape, late, x, dt, count)
-    return Response(0.5 * (X[0] + X[0].transpose(0, 2, 1)), least, X[1] / X[1][0])
+    W, parts = np.sqrt(np.maximum(size, 0.0)), int(np.ceil(dt / _STEP - 1e-9))
+    move = RationalStep(W, turn.T @ dampers, dt / parts)
+    b = np.concatenate([np.zeros_like(inputs), turn.T @ inputs])
+    shape = turn.T @ (np.zeros((len(W), 0)) if late is None else late.shape)
+    path = _Path(b, b.copy())
+    if late is not None:
+        for i in range(min(int(np.ceil(late.complete / dt)), count - 1)):
+            for j in range(parts):
+                now, then = (late.loss(i * dt + (j + m) * dt / parts, 0.5 * dt / parts) for m in (0, 1))
+                path.x = _damped(move(_damped(path.x, shape, now)), shape, then)
+            path.record()
+    loss = np.zeros(0) if late is None else late.loss(late.complete, 0.5 * dt / parts)
+
+    def step(x: Array) -> Array:
+        for _ in range(parts):
+            x = _damped(move(_damped(x, shape, loss)), shape, loss)
+        return x
+
+    path.go_on(step, count - len(path.K))
+    K = np.array(path.K)
+    return Response(0.5 * (K + K.transpose(0, 2, 1)), least, np.array(path.energy) / path.energy[0])
 
 
-def propagator(W: Array, C: Array, dt: float) -> Array:
-    """Return exp(dt [[0, W], [-W, -C]])."""
-    from scipy.linalg import expm
-
-    n = len(W)
-    A = np.zeros((2 * n, 2 * n))
-    A[:n, n:] = np.diag(W)
-    A[n:, :n] = -np.diag(W)
-    A[n:, n:] = -C
-    return np.asarray(expm(dt * A))
+def _damped(x: Array, shape: Array, loss: Array) -> Array:
+    """Return x with the velocities v + shape diag(loss) shape.T v."""
+    n = len(shape)
+    v = x[n:]
+    return np.concatenate([x[:n], v + shape @ (loss[:, None] * (shape.T @ v))])
 
 
-def _parts(dt: float) -> int:
-    return int(np.ceil(dt / _STEP - 1e-9))
+class _Path:
+    """State x with what is recorded of it: b.T x and |x|^2 at each time."""
 
+    def __init__(self, b: Array, x: Array) -> None:
+        self.b, self.x = b, x
+        self.K: list[Array] = []
+        self.energy: list[Array] = []
+        self.record()
 
-def _late(E: Array, shape: Array, late: LateDamping, b: Array, dt: float, count: int) -> tuple[Array, Array]:
-    """Return b.T x and |x|^2 at all times: single steps until the late damping is constant, then :func:`_even`."""
-    parts, n, x = _parts(dt), len(shape), b.copy()
-    h, first = dt / parts, min(count, int(np.ceil(late.complete / dt)) + 1)
-    K, energy = [b.T @ x], [np.sum(x**2, axis=0)]
-    for i in range((first - 1) * parts):
-        x[n:] += shape @ (late.loss(i * h, h / 2)[:, None] * (shape.T @ x[n:]))
-        x = E @ x
-        x[n:] += shape @ (late.loss((i + 1) * h, h / 2)[:, None] * (shape.T @ x[n:]))
-        if (i + 1) % parts == 0:
-            K.append(b.T @ x)
-            energy.append(np.sum(x**2, axis=0))
-    if first == count:
-        return np.array(K), np.array(energy)
-    half = np.eye(n) + shape @ (late.loss(late.complete, h / 2)[:, None] * shape.T)
-    M = E.copy()
-    M[n:] = half @ M[n:]
-    M[:, n:] = M[:, n:] @ half
-    K_after, energy_after = _even(np.linalg.matrix_power(M, parts), b, x, count - first + 1)
-    return np.concatenate([K, K_after[1:]]), np.concatenate([energy, energy_after[1:]])
+    def record(self) -> None:
+        self.K.append(self.b.T @ self.x)
+        self.energy.append(np.sum(self.x**2, axis=0))
 
-
-def _even(M: Array, b: Array, x: Array, count: int) -> tuple[Array, Array]:
-    """Return b.T M^i x (count, k, k) and |M^i x|^2 (count, k), the latter held for some steps."""
-    k, small = b.shape[1], max(int(np.sqrt(count)), 1)
-    large = -(-count // small)
-    left = _powers(M.T, b, small).transpose(0, 2, 1).reshape(small * k, -1)
-    right = _powers(np.linalg.matrix_power(M, small), x, large)
-    K = (left @ right.transpose(1, 0, 2).reshape(len(x), large * k)).reshape(small, k, large, k)
-    energy = np.repeat(np.sum(right**2, axis=1), small, axis=0)
-    return K.transpose(2, 0, 1, 3).reshape(-1, k, k)[:count], energy[:count]
+    def go_on(self, step: Callable[[Array], Array], count: int) -> None:
+        """Add `count` times by equal steps."""
+        if len(self.x) > 2 * _SMALL or count < 2 * len(self.x) ** 0.5:
+            for _ in range(count):
+                self.x = step(self.x)
+                self.record()
+            return
+        M = step(np.eye(len(self.x)))
+        k, small = self.b.shape[1], int(np.sqrt(count)) + 1
+        large = -(-(count + 1) // small)
+        left = _powers(M.T, self.b, small).transpose(0, 2, 1).reshape(small * k, -1)
+        right = _powers(np.linalg.matrix_power(M, small), self.x, large)
+        K = (left @ right.transpose(1, 0, 2).reshape(len(M), large * k)).reshape(small, k, large, k)
+        self.K += list(K.transpose(2, 0, 1, 3).reshape(-1, k, k)[1 : count + 1])
+        self.energy += list(np.repeat(np.sum(right**2, axis=1), small, axis=0)[1 : count + 1])
 
 
 def _powers(M: Array, b: Array, count: int) -> Array:
