@@ -49,11 +49,7 @@ def annulus(k, radii, q):
     """Panels of the quarter annulus on z = 0 between the radii, whose sides are those of the octants of both spheres."""
     u = np.linspace(0.0, 1.0, k + 1)
     arcs = [_sphere_patch((X, X + Y, X + Y, X)), _sphere_patch((X + Y, Y, Y, X + Y))]
-    return [
-        p
-        for arc in arcs
-        for p in panels(lambda s, t, arc=arc: arc(s, 0 * t) * t[..., None], u, radii, q, flip=True)
-    ]
+    return [p for arc in arcs for p in panels(lambda s, t, arc=arc: arc(s, 0 * t) * t[..., None], u, radii, q, flip=True)]
 
 
 def graded(n, power=2.0, both=False):

@@ -9,14 +9,17 @@ import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
-from ogilvie.bem.curved import BODY, CONTROL, FREE
+from ogilvie.bem.curved import BODY, CONTROL
 from ogilvie.bem.curved_nodes import CurvedNodes, frames
 from ogilvie.bem.inner import InnerMap, normal_modes
+from ogilvie.bem.reciprocity import Reciprocity, reciprocal
+from ogilvie.bem.surface_modes import surface_modes
 from ogilvie.errors import ConvergenceError, InputError
 
 Array = NDArray[Any]
 
-_GRAM = 0.9  # largest part of the square of a function on the control surface that its nodes may miss
+_MISSED = 0.5  # largest part of the square of a function on the control surface that its nodes may miss
+_FEWEST = 4  # functions of the depth in the lowest azimuthal mode
 _MORE = 6  # points per side of a panel, more than nodes, for integrals of these functions
 
 
@@ -40,39 +43,46 @@ DepthFunctions = Callable[[int, Array, int], Array]
 
 @dataclass(frozen=True, eq=False)
 class CoupledSystem:
-    """z'' + damping z' + stiffness z = inputs v, phi_hull = inputs.T z - instantaneous v, in units of control radius and gravity.
+    """z'' + dampers dampers.T z' + stiffness z = inputs v, phi_hull = inputs.T z - instantaneous v, in units of control radius and gravity.
 
     Parameters
     ----------
     inner : InnerMap
-    stiffness, damping : (n, n) array
-        Symmetric and >= 0; z holds the potential on the free surface, then the outer oscillators.
+    stiffness : (n, n) array
+        Symmetric, >= 0; z holds the free surface's modes, then the outer oscillators.
+    dampers : (n, r) array
+        Of the outer domain.
     inputs : (n, n_hull) array
+        v and phi_hull are values at the hull's nodes times the square root of their weight (all images).
     instantaneous : (n_hull, n_hull) array
         Symmetric, >= 0.
-    modes : (n_dofs, n_hull) array
-        Normal velocity of a unit velocity in each dof of the class.
-    gram : float
+    motions : (n_dofs, n_hull) array
+        v of a unit velocity in each dof of the class.
+    wavenumber, modes : (n_f,) and (n_f, n_f) array
+        Of the free surface: z_f = modes.T (values times square root of weight).
+    missed : float
         Largest part of the square of a function on the control surface that its nodes miss.
     """
 
     inner: InnerMap
     stiffness: Array
-    damping: Array
+    dampers: Array
     inputs: Array
     instantaneous: Array
+    motions: Array
+    wavenumber: Array
     modes: Array
-    gram: float
+    missed: float
 
     @cached_property
     def forcing(self) -> Array:
         """Inputs (n, n_dofs) of unit velocities of the dofs; also the outputs."""
-        return self.inputs @ self.modes.T
+        return self.inputs @ self.motions.T
 
     @cached_property
     def added_mass(self) -> Array:
         """Added mass at infinite frequency (n_dofs, n_dofs) for unit density."""
-        return self.modes @ self.instantaneous @ self.modes.T
+        return self.motions @ self.instantaneous @ self.motions.T
 
 
 def azimuthal_modes(parity: Array, mirrored: tuple[bool, bool], highest: int) -> list[tuple[int, bool]]:
@@ -95,7 +105,12 @@ def azimuthal_modes(parity: Array, mirrored: tuple[bool, bool], highest: int) ->
 
 
 def coupled_system(
-    inner: InnerMap, outer: Sequence[OuterMode], depth_functions: DepthFunctions, *, centre: Array | None = None
+    inner: InnerMap,
+    outer: Sequence[OuterMode],
+    depth_functions: DepthFunctions,
+    *,
+    centre: Array | None = None,
+    reciprocity: Reciprocity = "smoother",
 ) -> CoupledSystem:
     """Return the coupled system of one class of symmetry.
 
@@ -108,6 +123,8 @@ def coupled_system(
         (m, x, J) -> (J, n): orthonormal functions of x = -z on 0..1.
     centre : (3,) array, optional
         Of the control hemisphere from O, in control radii.
+    reciprocity : {"smoother", "mean"}
+        See :func:`ogilvie.bem.reciprocity.reciprocal`.
 
     Raises
     ------
@@ -124,58 +141,67 @@ def coupled_system(
         S = [[T_ff + T_fq P^-1 T_qf, -T_fq P^-1 b.T], [-b P^-1 T_qf, W^2 + b P^-1 b.T]],
         h = [-(T_fv + T_fq P^-1 T_qv); b P^-1 T_qv],   -phi_hull = -h.T z + (T_vv + T_vq P^-1 T_qv) v.
     """
-    Y, b, D, W, N, gram = _outer(inner, outer, depth_functions)
-    T_ff, T_fv, T_vv = (inner.block(*rc) for rc in ((FREE, FREE), (FREE, BODY), (BODY, BODY)))
-    T_qf, T_qv = Y @ inner.block(CONTROL, FREE), Y @ inner.block(CONTROL, BODY)
-    P = N - Y @ inner.block(CONTROL, CONTROL) @ Y.T
+    nodes = inner.nodes
+    sea = _outer(inner, outer, depth_functions)
+    wavenumber, modes = surface_modes(nodes, inner.parity)
+    motions = normal_modes(nodes, centre)[inner.dofs] * inner.root_weight[nodes.part == BODY]
+    T = reciprocal(inner, sea.functions, modes, motions, reciprocity)
     try:
-        half = np.linalg.inv(np.linalg.cholesky(0.5 * (P + P.T)))
+        half = np.linalg.inv(np.linalg.cholesky(sea.instantaneous - T.qq))
     except np.linalg.LinAlgError:
         raise ConvergenceError(
             "Inner and outer domain do not match: the map of the control surface is not definite. Refine the control surface."
         ) from None
-    F, V, B = half @ T_qf, half @ T_qv, half @ b.T
-    n_f, n = len(T_ff), len(T_ff) + len(W)
-    S, C = np.empty((n, n)), np.zeros((n, n))
-    S[:n_f, :n_f] = T_ff + F.T @ F
-    S[:n_f, n_f:] = -F.T @ B
-    S[n_f:, :n_f] = S[:n_f, n_f:].T
-    S[n_f:, n_f:] = np.diag(W**2) + B.T @ B
-    C[n_f:, n_f:] = D @ D.T
-    h = np.concatenate([-(T_fv + F.T @ V), B.T @ V])
-    modes = normal_modes(inner.nodes, centre)[inner.dofs] * inner.root_weight[inner.nodes.part == BODY]
-    return CoupledSystem(inner, S, C, h, -(T_vv + V.T @ V), modes, gram)
+    F, V, B = half @ T.qf, half @ T.vq.T, half @ sea.inputs.T
+    S = np.block([[T.ff + F.T @ F, -F.T @ B], [-B.T @ F, np.diag(sea.frequencies**2) + B.T @ B]])
+    D = np.concatenate([np.zeros((len(modes), sea.dampers.shape[1])), sea.dampers])
+    h = np.concatenate([-(T.vf.T + F.T @ V), B.T @ V]) @ T.hull.T
+    instantaneous = -T.hull @ (T.vv + V.T @ V) @ T.hull.T
+    return CoupledSystem(inner, S, D, h, instantaneous, motions, wavenumber, modes, sea.missed)
 
 
-def _outer(
-    inner: InnerMap, outer: Sequence[OuterMode], depth_functions: DepthFunctions
-) -> tuple[Array, Array, Array, Array, Array, float]:
-    """Functions on the control nodes as orthonormal rows, and b, D, W, N of all azimuthal modes of the class."""
+@dataclass(frozen=True, eq=False)
+class _Outer:
+    """Functions of the control surface in rows, and the outer domain in them."""
+
+    functions: Array
+    inputs: Array
+    dampers: Array
+    frequencies: Array
+    instantaneous: Array
+    missed: float
+
+
+def _outer(inner: InnerMap, outer: Sequence[OuterMode], depth_functions: DepthFunctions) -> _Outer:
+    """Put together all azimuthal modes of the class, each with the depth functions that the nodes can hold."""
     from scipy.linalg import block_diag
 
-    nodes = inner.nodes
-    symmetry = nodes.mesh.symmetry
-    kinds = azimuthal_modes(inner.parity, (symmetry == "xz+yz", symmetry != "none"), len(outer) - 1)
-    used = [outer[m] for m, _ in kinds]
-    Y = control_functions(nodes, [(m, sine, len(u.instantaneous)) for (m, sine), u in zip(kinds, used, strict=True)], depth_functions)
-    size = np.linalg.eigvalsh(Y @ Y.T)
-    gram = float(np.abs(size - 1.0).max())
-    if gram > _GRAM:
-        raise InputError(
-            f"The control surface has {Y.shape[1]} nodes in its stored part; {len(Y)} functions on it have squares between "
-            f"{size[0]:.2g} and {size[-1]:.2g} there, 1 within {_GRAM} expected. Use more panels on the control surface, or fewer "
-            "outer modes."
-        )
-    b, D, N = (block_diag(*(getattr(u, name) for u in used)) for name in ("inputs", "dampers", "instantaneous"))
-    return Y, b, D, np.concatenate([u.frequencies for u in used]), N, gram
+    nodes, symmetry = inner.nodes, inner.nodes.mesh.symmetry
+    rows, blocks, missed = [], [], 0.0
+    for m, sine in azimuthal_modes(inner.parity, (symmetry == "xz+yz", symmetry != "none"), len(outer) - 1):
+        mode = outer[m]
+        Y = control_functions(nodes, m, sine, len(mode.instantaneous), depth_functions)
+        lost = 1.0 - np.sum(Y**2, axis=1)
+        J = int(np.argmax(np.append(lost, 2.0) > _MISSED))
+        if J < _FEWEST and not rows:
+            raise InputError(
+                f"The nodes of the control surface hold {J} functions of the depth of the azimuthal mode {m}, {_FEWEST} or more "
+                "expected. Use more panels on the control surface, or a higher order."
+            )
+        if J:
+            missed = max(missed, float(lost[:J].max()))
+            rows.append(Y[:J])
+            blocks.append((mode.inputs[:, :J], mode.dampers, mode.frequencies, mode.instantaneous[:J, :J]))
+    b, D, W, N = zip(*blocks, strict=True)
+    return _Outer(np.concatenate(rows), block_diag(*b), block_diag(*D), np.concatenate(W), block_diag(*N), missed)
 
 
-def control_functions(nodes: CurvedNodes, kinds: Sequence[tuple[int, bool, int]], depth_functions: DepthFunctions) -> Array:
-    """Return the functions (m, sine?, J) of the control surface seen by its nodes, (n_functions, n_control).
+def control_functions(nodes: CurvedNodes, m: int, sine: bool, count: int, depth_functions: DepthFunctions) -> Array:
+    """Return the functions of azimuthal mode m on the control surface as seen by its nodes, (count, n_control).
 
-    Rows hold int L_i Y dS / sqrt(weight_i) with L_i one at node i and zero at the others, by a rule of more points than the nodes:
-    the row times the values times sqrt(weight) is the integral of Y times what the nodes hold, the transposed the best
-    approximation of Y by the nodes. A function of unit square that the nodes cannot hold has a shorter row.
+    Rows hold int L_i Y dS / sqrt(weight_i) with L_i one at node i and zero at the others, by a rule of more points than nodes: the
+    row times (values times sqrt(weight)) is the integral of Y times what the nodes hold, the transposed row the best approximation
+    of Y by the nodes. A function of unit square that the nodes cannot hold has a shorter row.
     """
     p, on = nodes.order, nodes.mesh.part == CONTROL
     t, w = legendre.leggauss(p + _MORE)
@@ -184,10 +210,7 @@ def control_functions(nodes: CurvedNodes, kinds: Sequence[tuple[int, bool, int]]
     L = legendre.legvander(t, p - 1) @ nodes.to_lagrange.T
     depth = np.clip(-x[..., 2] / np.linalg.norm(x, axis=-1), 0.0, 1.0)
     azimuth = np.arctan2(x[..., 1], x[..., 0])
-    rows = []
-    for m, sine, count in kinds:
-        wave = (np.sin(m * azimuth) if sine else np.cos(m * azimuth)) / np.sqrt(np.pi * (2 if m == 0 else 1))
-        values = depth_functions(m, depth.ravel(), count).reshape(count, *depth.shape) * (wave * area)
-        rows.append(np.einsum("knij,ia,jb->knab", values, L, L, optimize=True).reshape(count, -1))
-    root = np.sqrt(len(nodes.mesh.images) * nodes.weight[nodes.part == CONTROL])
-    return np.concatenate(rows) / root
+    wave = (np.sin(m * azimuth) if sine else np.cos(m * azimuth)) / np.sqrt(np.pi * (2 if m == 0 else 1))
+    values = depth_functions(m, depth.ravel(), count).reshape(count, *depth.shape) * (wave * area)
+    rows = np.einsum("knij,ia,jb->knab", values, L, L, optimize=True).reshape(count, -1)
+    return np.asarray(rows / np.sqrt(len(nodes.mesh.images) * nodes.weight[nodes.part == CONTROL]))

@@ -80,7 +80,9 @@ def influence(nodes: CurvedNodes, *, tolerance: float = 1e-6) -> Influence:
         raise InputError(f"tolerance: 1e-12 to 1e-2 expected, {tolerance} found.")
     classes = parities(nodes.mesh)
     images = nodes.mesh.images
-    signs = np.where(images[None, :, 0] < 0, classes[:, None, 0], 1.0) * np.where(images[None, :, 1] < 0, classes[:, None, 1], 1.0)
+    signs = np.where(images[None, :, 0] < 0, classes[:, None, 0], 1.0) * np.where(
+        images[None, :, 1] < 0, classes[:, None, 1], 1.0
+    )
     p = nodes.order
     rules = [_Rule(nodes, n, tolerance) for n in (p + 2, p + 4)]
     near = p + 6

@@ -46,7 +46,9 @@ class CurvedNodes:
         size = np.linalg.norm(self._frames[3], axis=-1)
         if not np.all(size > 1e-12 * size.max()):
             worst = int(np.argmin(size.min(axis=(1, 2))))
-            raise InputError(f"Panel {worst} has no area at one of its nodes: two of its sides are parallel or one has length zero.")
+            raise InputError(
+                f"Panel {worst} has no area at one of its nodes: two of its sides are parallel or one has length zero."
+            )
 
     @cached_property
     def abscissae(self) -> Array:

@@ -32,25 +32,22 @@ class InnerMap:
     parity : (2,) array
         Sign of the potential under x -> -x and y -> -y (1 where there is no such plane).
     matrix : (N, N) array
-        Symmetric, in the order of the nodes: rows and columns of the free surface, of the control surface, of the hull.
-    asymmetry : float
-        Largest singular value of half the antisymmetric part that was taken off, over that of the matrix.
+        In the order of the nodes, as solved: symmetric but for the error of the discretisation.
     """
 
     nodes: CurvedNodes
     parity: Array
     matrix: Array
-    asymmetry: float
 
     @cached_property
     def root_weight(self) -> Array:
         """Square root of the area of each node and all its images (N,)."""
         return np.sqrt(len(self.nodes.mesh.images) * self.nodes.weight)
 
-    def block(self, row: int, column: int) -> Array:
-        """Return the block from one part (column) to another (row): `FREE`, `CONTROL`, `BODY`."""
-        part = self.nodes.part
-        return self.matrix[np.ix_(part == row, part == column)]
+    @cached_property
+    def asymmetry(self) -> float:
+        """Largest singular value of the antisymmetric part over that of the matrix: of rough functions, which K hardly feels."""
+        return _norm(0.5 * (self.matrix - self.matrix.T)) / _norm(self.matrix)
 
     @property
     def dofs(self) -> list[int]:
@@ -89,8 +86,8 @@ def inner_maps(mesh: CurvedMesh, *, order: int = 4, tolerance: float = 1e-6) -> 
 
         c phi + int phi d(1/r)/dn dS = int phi_n / r dS.
 
-    For two harmonic functions int (phi psi_n - psi phi_n) dS = 0, so the map is symmetric in the area-weighted product; what the
-    discrete map lacks of that is a measure of its error, and is taken off.
+    For two harmonic functions int (phi psi_n - psi phi_n) dS = 0, so the map is symmetric in the area-weighted product. The discrete
+    map is so for smooth functions; :func:`ogilvie.bem.reciprocity.reciprocal` makes it so for all.
     """
     nodes = CurvedNodes(unit_mesh(mesh), order)
     matrices = influence(nodes, tolerance=tolerance)
@@ -110,9 +107,7 @@ def _map(matrices: Influence, index: int) -> InnerMap:
     left, right = np.where(free, S, D), np.where(free, D, -S)
     T = solve(left, right, overwrite_a=True, overwrite_b=True, check_finite=False)
     root = np.sqrt(nodes.weight)
-    T = root[:, None] * T / root
-    T, skew = 0.5 * (T + T.T), 0.5 * (T - T.T)
-    return InnerMap(nodes, matrices.parities[index], T, _norm(skew) / _norm(T))
+    return InnerMap(nodes, matrices.parities[index], root[:, None] * T / root)
 
 
 def _norm(a: Array) -> float:

@@ -1,16 +1,30 @@
-"""Impulse responses of damped oscillators on an even time grid, exactly, whatever the step."""
+"""Impulse responses of damped oscillators on an even time grid, without a limit of the time step."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ogilvie.bem.rational import RationalStep
 from ogilvie.errors import ConvergenceError, InputError
 
 Array = NDArray[Any]
 
 _NEGATIVE = 1e-3  # of the largest eigenvalue: a stiffness more negative than this is an error of the mesh, not of rounding
+_STEP = 0.036  # longest step while late damping comes into force, and between it and the motion
+_SMALL = 450  # oscillators up to which powers of the matrix of a step are worth their making
+
+
+class LateDamping(Protocol):
+    """Damping shape diag(rate ramp(t)) shape.T that is constant from `complete` on; see :mod:`ogilvie.bem.short_waves`."""
+
+    @property
+    def shape(self) -> Array: ...
+    @property
+    def complete(self) -> float: ...
+    def loss(self, t: float, h: float) -> Array: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,8 +37,8 @@ class Response:
         inputs.T z'(t), symmetric.
     least : float
         Lowest eigenvalue of the stiffness over the highest, before it was cut off at zero.
-    energy : (n_t,) array
-        Largest energy left of what the impulses gave, 1 at the start; it cannot grow.
+    energy : (n_t, k) array
+        Energy left of what each impulse gave, 1 at the start; it cannot grow.
     """
 
     K: Array
@@ -32,17 +46,22 @@ class Response:
     energy: Array
 
 
-def impulse_response(stiffness: Array, damping: Array, inputs: Array, *, dt: float, count: int) -> Response:
-    """Return inputs.T z'(t) at t = 0, dt, ... of z'' + damping z' + stiffness z = inputs delta(t).
+def impulse_response(
+    stiffness: Array, dampers: Array, inputs: Array, *, dt: float, count: int, late: LateDamping | None = None
+) -> Response:
+    """Return inputs.T z'(t) at t = 0, dt, ... of z'' + dampers dampers.T z' + stiffness z = inputs delta(t).
 
     Parameters
     ----------
-    stiffness, damping : (n, n) array
+    stiffness : (n, n) array
         Symmetric, >= 0.
+    dampers : (n, r) array
     inputs : (n, k) array
     dt : float
     count : int
         Number of times.
+    late : LateDamping, optional
+        Further damping that comes into force by and by.
 
     Raises
     ------
@@ -55,11 +74,12 @@ def impulse_response(stiffness: Array, damping: Array, inputs: Array, *, dt: flo
     -----
     With S = U diag(W^2) U.T and x = (W U.T z, U.T z'), x' = A x where
 
-        A = [[0, W], [-W, -U.T C U]],   d|x|^2/dt = -2 z'.T C z' <= 0:
+        A = [[0, W], [-W, -O O.T]],   O = U.T dampers,   d|x|^2/dt = -2 |O.T U.T z'|^2 <= 0.
 
-    the propagator E = exp(A dt) contracts, so neither the step nor its number can make anything grow. A.T = J A J with
-    J = diag(-1, 1), hence (inputs.T z')(i + j m) = (J E^i b).T E^(jm) b with b = (0, U.T inputs): two sequences of about
-    sqrt(count) vectors give all times.
+    Steps of :class:`ogilvie.bem.rational.RationalStep` contract whatever their length. Late damping is put between, half before and
+    half after, as z' -> z' + shape (exp(-rate ramp h/2) - 1) shape.T z', which contracts too: nothing can grow. Once it is constant
+    so is the step M, and for few oscillators two sequences of about sqrt(count) vectors give all times:
+    (inputs.T z')(i + j m) = (b.T M^i) (M^(j m) x).
 
     Examples
     --------
@@ -77,37 +97,70 @@ def impulse_response(stiffness: Array, damping: Array, inputs: Array, *, dt: flo
             f"The stiffness of the coupled system has an eigenvalue of {least:.1e} of the largest, 0 or more expected: "
             "the mesh of the inner domain is too coarse or distorted."
         )
-    W, n, k = np.sqrt(np.maximum(size, 0.0)), len(size), inputs.shape[1]
-    E = propagator(W, turn.T @ damping @ turn, dt)
-    b = np.concatenate([np.zeros((n, k)), turn.T @ inputs])
-    small = max(int(np.sqrt(count)), 1)
-    large = -(-count // small)
-    first = _powers(E, b, small)
-    second = _powers(np.linalg.matrix_power(E, small), b, large)
-    energy = np.repeat(np.max(np.sum(second**2, axis=1) / np.sum(b**2, axis=0), axis=1), small)[:count]
-    first[:, :n] *= -1.0
-    left = first.transpose(0, 2, 1).reshape(small * k, 2 * n)
-    K = left @ second.transpose(1, 0, 2).reshape(2 * n, large * k)
-    K = K.reshape(small, k, large, k).transpose(2, 0, 1, 3).reshape(-1, k, k)[:count]
-    return Response(0.5 * (K + K.transpose(0, 2, 1)), least, energy)
+    W, parts = np.sqrt(np.maximum(size, 0.0)), int(np.ceil(dt / _STEP - 1e-9))
+    move = RationalStep(W, turn.T @ dampers, dt / parts)
+    b = np.concatenate([np.zeros_like(inputs), turn.T @ inputs])
+    shape = turn.T @ (np.zeros((len(W), 0)) if late is None else late.shape)
+    path = _Path(b, b.copy())
+    if late is not None:
+        for i in range(min(int(np.ceil(late.complete / dt)), count - 1)):
+            for j in range(parts):
+                now, then = (late.loss(i * dt + (j + m) * dt / parts, 0.5 * dt / parts) for m in (0, 1))
+                path.x = _damped(move(_damped(path.x, shape, now)), shape, then)
+            path.record()
+    loss = np.zeros(0) if late is None else late.loss(late.complete, 0.5 * dt / parts)
+
+    def step(x: Array) -> Array:
+        for _ in range(parts):
+            x = _damped(move(_damped(x, shape, loss)), shape, loss)
+        return x
+
+    path.go_on(step, count - len(path.K))
+    K = np.array(path.K)
+    return Response(0.5 * (K + K.transpose(0, 2, 1)), least, np.array(path.energy) / path.energy[0])
 
 
-def propagator(W: Array, C: Array, dt: float) -> Array:
-    """Return exp(dt [[0, W], [-W, -C]])."""
-    from scipy.linalg import expm
-
-    n = len(W)
-    A = np.zeros((2 * n, 2 * n))
-    A[:n, n:] = np.diag(W)
-    A[n:, :n] = -np.diag(W)
-    A[n:, n:] = -C
-    return np.asarray(expm(dt * A))
+def _damped(x: Array, shape: Array, loss: Array) -> Array:
+    """Return x with the velocities v + shape diag(loss) shape.T v."""
+    n = len(shape)
+    v = x[n:]
+    return np.concatenate([x[:n], v + shape @ (loss[:, None] * (shape.T @ v))])
 
 
-def _powers(E: Array, b: Array, count: int) -> Array:
-    """Return E^i b for i = 0..count - 1, shape (count, n, k)."""
+class _Path:
+    """State x with what is recorded of it: b.T x and |x|^2 at each time."""
+
+    def __init__(self, b: Array, x: Array) -> None:
+        self.b, self.x = b, x
+        self.K: list[Array] = []
+        self.energy: list[Array] = []
+        self.record()
+
+    def record(self) -> None:
+        self.K.append(self.b.T @ self.x)
+        self.energy.append(np.sum(self.x**2, axis=0))
+
+    def go_on(self, step: Callable[[Array], Array], count: int) -> None:
+        """Add `count` times by equal steps."""
+        if len(self.x) > 2 * _SMALL or count < 2 * len(self.x) ** 0.5:
+            for _ in range(count):
+                self.x = step(self.x)
+                self.record()
+            return
+        M = step(np.eye(len(self.x)))
+        k, small = self.b.shape[1], int(np.sqrt(count)) + 1
+        large = -(-(count + 1) // small)
+        left = _powers(M.T, self.b, small).transpose(0, 2, 1).reshape(small * k, -1)
+        right = _powers(np.linalg.matrix_power(M, small), self.x, large)
+        K = (left @ right.transpose(1, 0, 2).reshape(len(M), large * k)).reshape(small, k, large, k)
+        self.K += list(K.transpose(2, 0, 1, 3).reshape(-1, k, k)[1 : count + 1])
+        self.energy += list(np.repeat(np.sum(right**2, axis=1), small, axis=0)[1 : count + 1])
+
+
+def _powers(M: Array, b: Array, count: int) -> Array:
+    """Return M^i b for i = 0..count - 1, shape (count, n, k)."""
     out = np.empty((count, *b.shape))
     out[0] = b
     for i in range(1, count):
-        out[i] = E @ out[i - 1]
+        out[i] = M @ out[i - 1]
     return out
