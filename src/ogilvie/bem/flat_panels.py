@@ -113,6 +113,25 @@ class FlatPanels:
         """Signs (n_images, 2) of x and y of the given part and of its mirror images."""
         return image_signs(self.symmetry)
 
+    def gauss_points(self, count: int) -> tuple[Array, Array]:
+        """Return points (count^2, n, 3), m, and weights (count^2, n), m2, for integrals over the panels; 1: the centroids.
+
+        Examples
+        --------
+        >>> square = FlatPanels([[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]])
+        >>> points, weights = square.gauss_points(2)
+        >>> round(float((weights * points[..., 0] ** 3).sum()), 12)
+        0.25
+        """
+        if count == 1:
+            return self.centers[None], self.areas[None]
+        x, w = np.polynomial.legendre.leggauss(count)
+        u, v = (a.ravel()[:, None, None] for a in np.meshgrid(0.5 + 0.5 * x, 0.5 + 0.5 * x, indexing="ij"))
+        a, b, c, d = self.corners.transpose(1, 0, 2)
+        points = (1 - u) * (1 - v) * a + u * (1 - v) * b + u * v * c + (1 - u) * v * d
+        cross = np.cross((1 - v) * (b - a) + v * (c - d), (1 - u) * (d - a) + u * (c - b))
+        return points, 0.25 * np.outer(w, w).reshape(-1, 1) * np.linalg.norm(cross, axis=-1)
+
 
 class Influence(NamedTuple):
     """Potentials (n_field, n) of unit source density, m, and of unit dipole density along the normals, dimensionless."""

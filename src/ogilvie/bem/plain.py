@@ -64,6 +64,7 @@ def plain_hybrid(
     dofs: tuple[str, ...] = DOFS,
     rho: float = 1025.0,
     g: float = 9.81,
+    points: int = 2,
     accuracy: float = 1e-6,
     memory_limit: float = 4e9,
 ) -> PlainHybrid:
@@ -81,6 +82,8 @@ def plain_hybrid(
         Motions and forces wanted.
     rho, g : float
         kg/m3, m/s2.
+    points : int
+        Gauss points along each side of the control surface's panels for the transient Green function, 1..8; 1: the centroid.
     accuracy : float
         Of the Rankine coefficients, see `rankine`.
     memory_limit : float
@@ -93,8 +96,8 @@ def plain_hybrid(
     Raises
     ------
     InputError
-        A time step that the leapfrog does not bear, storage beyond the limit, panels that do not enclose the fluid, unknown dofs,
-        numbers out of range.
+        A time step that the leapfrog does not bear, storage beyond the limit, panels that do not enclose the fluid, unknown
+        dofs, numbers out of range.
     ConvergenceError
         The potentials grow without bound.
 
@@ -105,8 +108,8 @@ def plain_hybrid(
 
         chi_F(M+1) = 2 chi_F(M) - chi_F(M-1) - g dt^2 chi_n,F(M),   chi_F(0) = 0, chi_F(1) = -g dt psi_n,F,
 
-    which is Eqs. (18), (19) with the normal derivative that (19) lacks, the history r_C over all earlier steps (trapezoidal rule,
-    whose ends are zero), and one product with a matrix for all modes of a parity. chi_t by central differences. Derivation:
+    which is Eqs. (18), (19) with the normal derivative that (19) lacks, the history r_C over all earlier steps (trapezoidal
+    rule, whose ends are zero), and one product with a matrix for all modes of a parity; chi_t by central differences. Derived in
     docs/theory/transient_green.md.
 
     References
@@ -122,6 +125,8 @@ def plain_hybrid(
     True
     """
     _check(duration, dt, dofs, rho, g)
+    if points not in range(1, 9):
+        raise InputError(f"plain_hybrid: points: a whole number 1..8 expected, {points!r} found.")
     parities = _parities(boundary, dofs)
     clock = [time.perf_counter()]
     found = responses(boundary, np.array(list(parities)), accuracy=accuracy)
@@ -136,7 +141,7 @@ def plain_hybrid(
             f"({steps} steps, {n_c} panels of the control surface). Use symmetry, fewer panels, a larger dt or memory_limit."
         )
     clock.append(time.perf_counter())
-    kernels = histories(boundary, np.array(list(parities)), g=g, step=step, steps=steps)
+    kernels = histories(boundary, np.array(list(parities)), g=g, step=step, steps=steps, points=points)
     clock.append(time.perf_counter())
     K, A_inf = np.zeros((steps, len(dofs), len(dofs))), np.zeros((len(dofs), len(dofs)))
     for members, response, W in zip(parities.values(), found, kernels, strict=True):
