@@ -148,7 +148,7 @@ def test_known_limits_of_the_hemisphere():
 def test_retardation_functions_of_the_hemisphere(shared_reference):
     exact = np.loadtxt(shared_reference / "hemisphere_K.csv", delimiter=",", skiprows=2)
     result = plain_hybrid(hemisphere_boundary(), duration=20.0, dt=0.1, dofs=("surge", "heave"), rho=1.0, g=1.0)
-    for i, column, allowed in ((1, 1, 0.02), (0, 2, 0.09)):
+    for i, column, allowed in ((1, 1, 0.03), (0, 2, 0.09)):
         K = result.K[:, i, i] / VOLUME
         wanted = np.interp(result.t, exact[:, 0], exact[:, column])
         assert np.abs(K - wanted).max() < allowed * exact[0, column]

@@ -64,7 +64,7 @@ def plain_hybrid(
     dofs: tuple[str, ...] = DOFS,
     rho: float = 1025.0,
     g: float = 9.81,
-    points: int = 2,
+    points: int = 3,
     accuracy: float = 1e-6,
     memory_limit: float = 4e9,
 ) -> PlainHybrid:
@@ -109,7 +109,7 @@ def plain_hybrid(
         chi_F(M+1) = 2 chi_F(M) - chi_F(M-1) - g dt^2 chi_n,F(M),   chi_F(0) = 0, chi_F(1) = -g dt psi_n,F,
 
     which is Eqs. (18), (19) with the normal derivative that (19) lacks, the history r_C over all earlier steps (trapezoidal
-    rule, whose ends are zero), and one product with a matrix for all modes of a parity; chi_t by central differences. Derived in
+    rule, whose ends are zero), and one product with a matrix for all modes of a parity; chi_t by central differences. See
     docs/theory/transient_green.md.
 
     References

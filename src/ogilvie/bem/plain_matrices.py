@@ -97,7 +97,7 @@ def _check_closed(boundary: FlatBoundary, error: Array) -> None:
         )
 
 
-def histories(boundary: FlatBoundary, parities: Array, *, g: float, step: float, steps: int, points: int = 2) -> list[Array]:
+def histories(boundary: FlatBoundary, parities: Array, *, g: float, step: float, steps: int, points: int = 3) -> list[Array]:
     """Return the kernels (n_c, steps, 2 n_c) of r_C for each parity: at lag (l + 1) step what (phi, phi_n) = 1 adds.
 
     Notes
