@@ -4,12 +4,13 @@ import numpy as np
 import pytest
 
 from ogilvie.bem.curved import CurvedMesh
-from ogilvie.bem.flat_panels import FlatPanels, rankine_by_parity
-from ogilvie.bem.plain import DOFS, impulse_response, plain_hybrid
+from ogilvie.bem.flat_panels import FlatPanels
+from ogilvie.bem.flat_panels_influence import rankine_by_parity
+from ogilvie.bem.plain import impulse_response, plain_hybrid
 from ogilvie.bem.plain_boundary import FlatBoundary, flat_boundary, hemisphere_boundary
 from ogilvie.bem.plain_matrices import histories, leapfrog_limit, responses
 from ogilvie.bem.transient_green import transient_green
-from ogilvie.errors import InputError
+from ogilvie.errors import ConvergenceError, InputError
 
 COARSE = hemisphere_boundary(1.0, 3.0, around=12, rings=(6, 8, 6))
 VOLUME = 2 / 3 * np.pi
@@ -47,11 +48,11 @@ def test_instantaneous_outer_potential():
 def test_memory_of_the_outer_potential():
     """chi = G_f of a source inside: chi_C = Z chi_n - Y r_C with r_C from its own history, Eqs. (20)-(23), signs and all."""
     errors = []
-    for n, step in ((3, 0.2), (6, 0.1), (12, 0.05)):
+    for n, step in ((3, 0.2), (6, 0.1)):
         b, steps = control(n), round(6.0 / step)
         t = step * np.arange(1, steps + 1)
         response = responses(b, EVEN)[0]
-        W = histories(b, EVEN, g=1.0, step=step, steps=steps)[0]
+        W = histories(b, EVEN, g=1.0, step=step, steps=steps, points=2)[0]
         chi, chi_n, psi, psi_n = source_inside(b.control, t, 1.0)
         worst = []
         for M in range(1, steps + 1):
@@ -60,8 +61,8 @@ def test_memory_of_the_outer_potential():
                 r_C += step * W[:, M - m - 1] @ np.concatenate([chi[:, m - 1], chi_n[:, m - 1]])
             worst.append(np.abs(response.Z @ chi_n[:, M - 1] - response.Y @ r_C - chi[:, M - 1]).max())
         errors.append(max(worst) / np.abs(chi).max())
-    assert errors[2] < 0.02
-    assert np.all(np.divide(errors[:-1], errors[1:]) > 1.9)
+    assert errors[1] < 0.04
+    assert errors[1] < 0.45 * errors[0]
 
 
 def test_inner_problem_of_a_linear_potential():
@@ -245,6 +246,9 @@ def test_bad_boundaries_are_explained(make, words):
         make()
 
 
-def test_all_dofs_are_known():
-    assert len(DOFS) == 6
-    assert COARSE.modes.shape == (COARSE.counts[2], 6)
+def test_growth_is_noticed(monkeypatch):
+    import ogilvie.bem.plain as plain
+
+    monkeypatch.setattr(plain, "leapfrog_limit", lambda *_, **__: 10.0)
+    with pytest.raises(ConvergenceError, match="the solution grows"):
+        plain_hybrid(COARSE, duration=20.0, dt=0.8, dofs=("surge", "heave"), rho=1.0, g=1.0, points=1)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ogilvie.bem.flat_panels import density_signs, rankine_by_parity
+from ogilvie.bem.flat_panels_influence import density_signs, rankine_by_parity
 from ogilvie.bem.plain_boundary import FlatBoundary
 from ogilvie.bem.transient_green_kernel import fill_history
 from ogilvie.bem.transient_green_table import chebyshev_table
