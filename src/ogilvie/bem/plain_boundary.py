@@ -84,7 +84,7 @@ def _with_images(panels: FlatPanels) -> FlatPanels:
 
 
 def flat_boundary(mesh: CurvedMesh, *, divisions: int = 2) -> FlatBoundary:
-    """Return flat panels with their corners on a curved boundary.
+    """Return flat panels with their corners on a curved boundary, in the axes of the hull.
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ def flat_boundary(mesh: CurvedMesh, *, divisions: int = 2) -> FlatBoundary:
     node = -np.cos(np.pi * np.arange(q) / (q - 1))
     basis = np.polynomial.chebyshev.chebvander(np.linspace(-1.0, 1.0, divisions + 1), q - 1)
     L = basis @ np.linalg.inv(np.polynomial.chebyshev.chebvander(node, q - 1))
-    p = np.einsum("ai,bj,nijk->nabk", L, L, mesh.points)
+    p = np.einsum("ai,bj,nijk->nabk", L, L, mesh.points) + np.asarray(getattr(mesh, "centre", (0.0, 0.0, 0.0)))
     corners = np.stack([p[:, :-1, :-1], p[:, 1:, :-1], p[:, 1:, 1:], p[:, :-1, 1:]], axis=3)
     corners[np.abs(corners) < 1e-12 * mesh.radius] = 0.0
     surfaces = []
