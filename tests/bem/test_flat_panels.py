@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from ogilvie.bem.flat_panels import FlatPanels, density_signs, image_signs, rankine, rankine_by_parity
+from ogilvie.bem.flat_panels import FlatPanels, image_signs
+from ogilvie.bem.flat_panels_influence import density_signs, rankine, rankine_by_parity
 from ogilvie.errors import InputError
 
 SQUARE = FlatPanels([[[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]])

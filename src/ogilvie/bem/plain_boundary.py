@@ -21,8 +21,8 @@ class FlatBoundary:
     Parameters
     ----------
     hull, free, control : FlatPanels
-        Normals OUT of the fluid: into the hull, up, away from the hull. Edges of neighbouring surfaces should meet, and panels of
-        two surfaces have one size where they do.
+        Normals OUT of the fluid: into the hull, up, away from the hull. Edges of neighbouring surfaces should meet, and panels
+        of two surfaces have one size where they do.
 
     Raises
     ------
@@ -84,7 +84,7 @@ def _with_images(panels: FlatPanels) -> FlatPanels:
 
 
 def flat_boundary(mesh: CurvedMesh, *, divisions: int = 2) -> FlatBoundary:
-    """Return flat panels with their corners on a curved boundary.
+    """Return flat panels with their corners on a curved boundary, in the axes of the hull.
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ def flat_boundary(mesh: CurvedMesh, *, divisions: int = 2) -> FlatBoundary:
     node = -np.cos(np.pi * np.arange(q) / (q - 1))
     basis = np.polynomial.chebyshev.chebvander(np.linspace(-1.0, 1.0, divisions + 1), q - 1)
     L = basis @ np.linalg.inv(np.polynomial.chebyshev.chebvander(node, q - 1))
-    p = np.einsum("ai,bj,nijk->nabk", L, L, mesh.points)
+    p = np.einsum("ai,bj,nijk->nabk", L, L, mesh.points) + np.asarray(getattr(mesh, "centre", (0.0, 0.0, 0.0)))
     corners = np.stack([p[:, :-1, :-1], p[:, 1:, :-1], p[:, 1:, 1:], p[:, :-1, 1:]], axis=3)
     corners[np.abs(corners) < 1e-12 * mesh.radius] = 0.0
     surfaces = []
@@ -147,8 +147,8 @@ def hemisphere_boundary(
 
     Notes
     -----
-    Heights grow in geometric series from the waterline: down the hull, outwards on the free surface and, from its last ring, down
-    the control surface, so that panels have one size at both edges. Flat panels with corners on the sphere enclose too
+    Heights grow in geometric series from the waterline: down the hull, outwards on the free surface and, from its last ring,
+    down the control surface, so that panels have one size at both edges. Flat panels with corners on the sphere enclose too
     little; the hull's corners are moved out by a common factor that makes its volume that of the hemisphere.
 
     Examples
@@ -162,7 +162,9 @@ def hemisphere_boundary(
             f"and {grading!r} found."
         )
     if around < 8 or around % 4 or min(rings) < 2:
-        raise InputError(f"hemisphere_boundary: around a multiple of 4, >= 8, rings >= 2 expected, {around!r}, {rings!r} found.")
+        raise InputError(
+            f"hemisphere_boundary: around a multiple of 4, >= 8, rings >= 2 expected, {around!r}, {rings!r} found."
+        )
     depth = 0.5 * np.pi * radius * _geometric(rings[0], grading / rings[0])
     out = (control_radius - radius) * _geometric(rings[1], (depth[1] - depth[0]) / (control_radius - radius))
     arc = 0.5 * np.pi * control_radius
@@ -199,7 +201,7 @@ def _meridian(radius: float, depth: Array) -> tuple[Array, Array]:
 
 
 def _revolved(s: Array, z: Array, alpha: Array) -> Array:
-    """Return corners (n, 4, 3) of a quarter's surface of revolution; normals towards the axis where z falls along the meridian."""
+    """Return corners (n, 4, 3) of a quarter's surface of revolution; normals to the axis where z falls along the meridian."""
     c, d = np.cos(alpha), np.sin(alpha)
     c[-1], d[0] = 0.0, 0.0
     p = np.stack([np.outer(s, c), np.outer(s, d), np.outer(z, np.ones_like(alpha))], axis=-1)

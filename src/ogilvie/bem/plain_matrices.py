@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ogilvie.bem.flat_panels import density_signs, rankine_by_parity
+from ogilvie.bem.flat_panels_influence import density_signs, rankine_by_parity
 from ogilvie.bem.plain_boundary import FlatBoundary
 from ogilvie.bem.transient_green_kernel import fill_history
 from ogilvie.bem.transient_green_table import chebyshev_table
@@ -80,7 +80,9 @@ def _solved(A: Array, B: Array, Z: Array, Y: Array, counts: tuple[int, int, int]
     C, F, H = slice(0, n_c), slice(n_c, n_c + n_f), slice(n_c + n_f, None)
     left = np.concatenate([A[:, C] @ Z - B[:, C], -B[:, F], A[:, H]], axis=1)
     solution = np.linalg.solve(left, np.concatenate([A[:, C] @ Y, -A[:, F], B[:, H]], axis=1))
-    return Response(Z=Z, Y=Y, X=np.ascontiguousarray(solution[:, : n_c + n_f]), V=np.ascontiguousarray(solution[:, n_c + n_f :]))
+    return Response(
+        Z=Z, Y=Y, X=np.ascontiguousarray(solution[:, : n_c + n_f]), V=np.ascontiguousarray(solution[:, n_c + n_f :])
+    )
 
 
 def _check_closed(boundary: FlatBoundary, error: Array) -> None:
@@ -90,33 +92,32 @@ def _check_closed(boundary: FlatBoundary, error: Array) -> None:
         name = "control surface" if worst < n_c else "free surface" if worst < n_c + n_f else "hull"
         at = ", ".join(f"{x:.4g}" for x in boundary.panels.centers[worst])
         raise InputError(
-            f"FlatBoundary: panels that enclose the fluid, normals outwards, expected; at ({at}) of the {name} the solid angle is "
-            f"{abs(error[worst]):.1%} off. Look for gaps, overlaps and panels that are turned over."
+            f"FlatBoundary: panels that enclose the fluid, normals outwards, expected; at ({at}) of the {name} the solid angle "
+            f"is {abs(error[worst]):.1%} off. Look for gaps, overlaps and panels that are turned over."
         )
 
 
-def histories(boundary: FlatBoundary, parities: Array, *, g: float, step: float, steps: int) -> list[Array]:
-    """Return the kernels (n_c, steps, 2 n_c) of r_C for each parity: at lag (l + 1) step what a unit of (phi, phi_n) adds to r_C.
+def histories(boundary: FlatBoundary, parities: Array, *, g: float, step: float, steps: int, points: int = 3) -> list[Array]:
+    """Return the kernels (n_c, steps, 2 n_c) of r_C for each parity: at lag (l + 1) step what (phi, phi_n) = 1 adds.
 
     Notes
     -----
-    r_C = int dtau int_C [phi d/dn_q G_f(t - tau) - phi_n G_f(t - tau)] dS, Eqs. (20), (21), G_f and its derivative at the
-    centroids.
+    r_C = int dtau int_C [phi d/dn_q G_f(t - tau) - phi_n G_f(t - tau)] dS, Eqs. (20), (21), with points^2 Gauss points on each
+    panel; 1: its centroid.
     """
     control = boundary.control
-    n = len(control)
+    n, n_p = len(control), len(parities)
     signs = density_signs(control.images, parities)
-    total = [np.zeros((n, steps, 2 * n)) for _ in parities]
-    part = np.empty((n, steps, 2 * n)) if len(parities) > 1 else total[0]
+    total = [np.zeros((n, steps, 2 * n)) for _ in range(n_p)]
+    part = np.zeros((n, steps, 2 * n)) if n_p > 1 else total[0]  # of one image; with one parity they add up at once
     for image, sign in zip(control.images, signs.T, strict=True):
         field = np.ascontiguousarray(control.centers * [*image, 1.0])
-        weight = control.areas * (sign[0] if len(parities) == 1 else 1.0)
-        if len(parities) > 1:
+        if n_p > 1:
             part[:] = 0.0
-        fill_history(
-            field, control.centers, control.normals, weight, g, step, 1, chebyshev_table(), part[..., n:], part[..., :n]
-        )
-        if len(parities) > 1:
+        for x, weight in zip(*control.gauss_points(points), strict=True):
+            w = weight if n_p > 1 else sign[0] * weight
+            fill_history(field, x, control.normals, w, g, step, 1, chebyshev_table(), part[..., n:], part[..., :n])
+        if n_p > 1:
             for s, W in zip(sign, total, strict=True):
                 W += s * part
     for W in total:
