@@ -384,6 +384,78 @@ def test_headings_beyond_the_data_are_told():
         SlowDrift(one).bind(Surroundings(BODY)).encounter(sea, 0.0)
 
 
+# --- data at several speeds ---
+
+
+def at_speeds(*speeds, full=False):
+    """Drift that grows with the speed, by another amount at each frequency and heading."""
+    found = []
+    for U in speeds:
+        hydro = sets(full=full).assign_attrs(speed=U)
+        scale = 1.0 + 0.2 * U
+        hydro["mean_drift"] = hydro.mean_drift * scale + 1e4 * U * hydro.omega * (hydro.influenced_dof == "surge")
+        if full:
+            hydro["qtf_diff"] = hydro.qtf_diff * scale
+        found.append(hydro)
+    return found
+
+
+@pytest.mark.parametrize("approximation", [*EVERY, "mean"])
+def test_between_speeds_the_transfer_function_is_linear(approximation):
+    load = SlowDrift(at_speeds(6.0, 0.0, 3.0, full=approximation == "full"), approximation)  # in any order
+    w1, w2, b = np.array([0.5, 0.8, 0.9]), np.array([0.7, 0.8, 1.4]), np.radians(140.0)
+    low, high = (load.qtf(w1, w2, b, speed=U) for U in (3.0, 6.0))
+    alone = SlowDrift(at_speeds(3.0, full=approximation == "full"), approximation).qtf(w1, w2, b)
+    np.testing.assert_allclose(low, alone, rtol=1e-12)
+    assert np.abs(high - low).max() > 0.2 * np.abs(low).max()
+    np.testing.assert_allclose(load.qtf(w1, w2, b, speed=4.0), (2.0 * low + high) / 3.0, rtol=1e-12)
+    np.testing.assert_array_equal(load.qtf(w1, w2, b), load.qtf(w1, w2, b, speed=0.0))
+
+
+@pytest.mark.parametrize("approximation", [*EVERY, "mean"])
+def test_force_at_a_speed_between_the_data_beats_at_differences_of_the_frequencies_of_encounter(approximation):
+    load, sea, t = (
+        SlowDrift(at_speeds(0.0, 6.0, full=approximation == "full"), approximation),
+        scattered(),
+        np.arange(0.0, 60.0, 0.5),
+    )
+    psi, U = 0.3, 4.5
+    i, j = (k.ravel() for k in np.indices((50, 50)))
+    b = sea.direction - psi
+    Q = load.qtf(sea.omega[i], sea.omega[j], b[i], b[j], speed=U).reshape(50, 50, 6)
+    expected = double_sum(sea.complex_amplitude, sea.omega - sea.wavenumber * U * np.cos(b), Q, t)
+    found = load.series(sea, t, heading=psi, speed=U)
+    np.testing.assert_allclose(found, expected, rtol=0, atol=5e-9 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("approximation", ["newman-arithmetic", "full", "mean"])
+def test_compiled_force_follows_the_mean_speed(approximation):
+    load, sea = SlowDrift(at_speeds(0.0, 3.0, 6.0, full=approximation == "full"), approximation), scattered()
+    kernel, psi = load.bind(Surroundings(BODY, speed=4.0)).encounter(sea, 0.0), np.radians(6.0)
+    for U in (0.0, 2.0, 3.0, 4.5, 6.0):
+        expected = load.form(sea, psi, U).series(HarmonicGrid(sea.omega, 1.0, 1), sea.complex_amplitude)[0]
+        found = kernel.force(eta=[0, 0, 0, 0, 0, psi], nu=[U, 0, 0, 0, 0, 0])
+        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-8 * np.abs(expected).max())
+    assert np.isnan(kernel.force(eta=[0, 0, 0, 0, 0, psi], nu=[6.5, 0, 0, 0, 0, 0])).all()
+    assert "mean speeds through the water 0..6 m/s" in kernel.limits
+
+
+def test_data_at_several_speeds_that_do_not_belong_together():
+    with pytest.raises(InputError, match="different speeds"):
+        SlowDrift(at_speeds(3.0, 3.0))
+    with pytest.raises(InputError, match="one hydrodynamic data set or more"):
+        SlowDrift([])
+    with pytest.raises(InputError, match="str found"):
+        SlowDrift([HYDRO, "hydro"])
+    with pytest.raises(InputError, match="same headings"):
+        SlowDrift([sets(HEADINGS[:-1], full=False), at_speeds(2.0)[0]])
+    load = SlowDrift(at_speeds(0.0, 3.0))
+    with pytest.raises(InputError, match=r"within the data \(0\.\.3 m/s\)"):
+        load.bind(Surroundings(BODY, speed=5.0))
+    with pytest.raises(InputError, match="a speed within the data"):
+        load.series(scattered(), np.arange(3.0), speed=5.0)
+
+
 # --- mistakes ---
 
 
@@ -401,7 +473,7 @@ def test_mistakes():
     with pytest.raises(InputError, match="position"):
         SlowDrift(HYDRO, position="here")
     with pytest.raises(InputError, match="data set"):
-        SlowDrift([HYDRO])
+        SlowDrift(3.0)
     with pytest.raises(InputError, match="tolerance"):
         SlowDrift(HYDRO, tolerance=2.0)
     with pytest.raises(InputError, match="mean_drift_momentum"):

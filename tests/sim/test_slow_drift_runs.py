@@ -132,3 +132,34 @@ def test_a_free_ship_starts_without_an_offset_where_nothing_restores(barge, data
     assert np.abs(away[0, [0, 1, 5]]).max() < 1e-9
     assert np.abs(away[0, [2, 4]]).min() > 0.0
     assert np.abs(away[-1, :2]).min() > 0.1
+
+
+@pytest.mark.parametrize("approximation", ["mean", "newman-arithmetic"])
+def test_added_resistance_slows_a_ship_to_where_thrust_balances_it(barge, data, approximation):
+    """Constant thrust for 6 m/s in calm water; head seas; drift at 0, 4 and 8 m/s that grows linearly with the speed."""
+    scale = {U: 1.0 + 0.3 * U for U in (0.0, 4.0, 8.0)}
+    sets = [data.assign(mean_drift=data.mean_drift * k).assign_attrs(speed=U) for U, k in scale.items()]
+    sea = og.irregular(og.jonswap(hs=2.0, tp=8.0), direction=np.pi, n=40, omega_range=(0.4, 2.0), seed=3)
+    speeds = np.linspace(0.0, 9.0, 10)
+    calm = og.SurgeResistance.from_table(speeds, 8e3 * speeds**2, balanced_at=6.0)
+    load = SlowDrift(sets, approximation)
+    course = og.LinearMooring(np.diag([0.0, 1e5, 0.0, 0.0, 0.0, 2e9]))
+    damping = og.LinearDamping(np.diag([0.0, 1e6, 0.0, 3e7, 0.0, 4e9]))
+    loads = (barge.others[0], course, damping, og.StateSpaceRadiation(barge.model), calm, load)
+    run = og.simulate(og.Vessel(barge.body, loads=loads, speed=6.0), sea, duration=900.0, dt=0.1, motions="large")
+    D = load.form(sea, 0.0, 0.0).diagonal()[:, 0] @ sea.amplitude**2
+    assert D < 0.0
+    u = np.linspace(2.0, 8.0, 6001)
+    balance = 8e3 * (36.0 - u**2) + D * (1.0 + 0.3 * u)
+    expected = u[np.argmin(np.abs(balance))]
+    late = run.nu.sel(dof="surge")[run.time > 600.0]
+    assert float(late.mean()) == pytest.approx(expected, abs=0.03)
+    assert expected < 5.6
+
+
+def test_drift_at_several_speeds_and_its_damping_are_not_counted_together(barge, data, seas):
+    sets = [data.assign_attrs(speed=U) for U in (0.0, 4.0)]
+    damping = og.WaveDriftDamping(data, seas.one)
+    og.Vessel(barge.body, loads=(*barge.others, SlowDrift(data), damping))
+    with pytest.raises(og.DoubleCountingError, match="wave-drift damping"):
+        og.Vessel(barge.body, loads=(*barge.others, SlowDrift(sets), damping))

@@ -59,13 +59,13 @@ def mean_drift(
     rho, g, water_depth : float
         kg/m3, m/s2, m (inf for deep water).
     speed : float
-        Zero: forward speed is refused.
+        Forward speed, m/s: ``-mean_drift`` in surge is the added resistance then.
     damping, stiffness : (6, 6) array, optional
         About O: external damping (viscous roll damping) and stiffness (mooring), added to those of water and gravity.
     method : {"auto", "near", "far", "control_surface"}
-        What ``mean_drift`` is taken from. "auto": surge, sway, yaw from the far field, heave, roll, pitch from the control
+        What ``mean_drift`` is taken from. "auto": surge, sway and, at rest, yaw from the far field, the others from the control
         surface (or, around several waterlines, the near field). "near" and "far" leave the control surface out, which nearly
-        halves the work.
+        halves the work. At speed the far field is for deep water; "auto" takes the control surface elsewhere.
     rotation : {"ZYX", "XYZ"}
         Order of the rotations: Rz Ry Rx (this package) or Rx Ry Rz (WAMIT); heave, roll and pitch differ.
     moments : {"space", "body"}
@@ -73,7 +73,8 @@ def mean_drift(
     waterline : {"edge", "centre"}
         Potential at the edges of the waterline, or at the centres of its panels, as in low-order codes.
     pairs : bool
-        Add ``mean_drift_pairs`` for two waves of one frequency from different directions.
+        Add ``mean_drift_pairs`` for two waves of one frequency from different directions; at rest, since at speed they are met
+        at different frequencies.
     irregular_frequencies, progress, cache, workers
         As in :func:`ogilvie.solve_bem`.
 
@@ -88,9 +89,10 @@ def mean_drift(
         * energy_imbalance: wave energy radiated, scattered and damped less that taken from the incident wave, as a part of it
         * difference_pressure, difference_control_surface: distance from the far field, as a part of the largest value over all
           directions at that frequency
-        * flag_energy (imbalance above 2 %), flag_pressure, flag_control_surface (difference above 10 %),
-          flag_vertical (heave, roll or pitch by near field and control surface more than half apart)
+        * flag_energy (imbalance above 2 %, at speed 10), flag_pressure, flag_control_surface (difference above 10 %, at speed
+          30), flag_vertical (heave, roll or pitch by near field and control surface more than half apart)
         * motion_rao: the motions
+        * at speed: encounter_frequency (signed), flag_slow_encounter (U omega_e/g below 1/4)
 
         ``hydro.assign(mean_drift=drift.mean_drift)`` puts it into a data set of the same frequencies and directions. The
         attribute `summary` tells in words how good it is.
@@ -98,7 +100,7 @@ def mean_drift(
     Raises
     ------
     InputError
-        An argument is out of range, or the hull cannot be solved.
+        An argument is out of range, or the hull cannot be solved; waves that the ship keeps pace with (omega_e = 0).
     ConvergenceError
         The Green function cannot be evaluated.
 
@@ -114,6 +116,12 @@ def mean_drift(
     measured: docs/theory/drift.md. Near field: :mod:`ogilvie.hydro.drift_near`; far field: :mod:`ogilvie.hydro.drift_far`;
     control surface: :mod:`ogilvie.hydro.drift_control`.
 
+    At speed `omega` is the frequency of the incident waves, and the first order is that of :func:`ogilvie.solve_bem`: the Green
+    function of zero speed at the frequency of encounter, uniform flow past the hull. Near field and control surface then hold
+    (d/dt - U d/dx) in place of d/dt throughout; the far field is Maruo's with the waves that a moving ship makes
+    (:mod:`ogilvie.hydro.drift_maruo`). The methods are some 10 to 30 % apart where added resistance is large, more in long and
+    in short waves (docs/theory/drift.md).
+
     At sharp edges the velocity is infinite and its square near the edge is badly resolved by panels: there the near field is
     for comparison only, while the other two need no velocity on the hull.
 
@@ -122,7 +130,7 @@ def mean_drift(
     H. Maruo, The drift of a body floating on waves, J. Ship Research 4 (1960); J. N. Newman, The drift force and moment on
     ships in waves, J. Ship Research 11 (1967); J. A. Pinkster, Low frequency second order wave exciting forces on floating
     structures, Delft (1980); X.-B. Chen, Middle-field formulation for the computation of wave-drift loads, J. Eng. Math. 59
-    (2007) 61-82.
+    (2007) 61-82. With forward speed: paper D (Somayajula and Falzarano 2016), Eqs. (1)-(39).
 
     Examples
     --------
@@ -131,11 +139,6 @@ def mean_drift(
     >>> drift.mean_drift.sizes["influenced_dof"], bool(drift.mean_drift.sel(influenced_dof="surge") < 0)  # pushed astern
     (6, True)
     """
-    if speed != 0.0:
-        raise InputError(
-            f"mean_drift: speed: 0 expected, {speed!r} m/s found. Added resistance at speed is not part of this method; give "
-            "measured or empirical values in a force table."
-        )
     case = checked_case(
         hull,
         irregular_frequencies,
@@ -145,6 +148,7 @@ def mean_drift(
         rho=rho,
         g=g,
         depth=water_depth,
+        speed=speed,
     )
     for name, value, allowed in (
         ("method", method, Method),
@@ -154,6 +158,15 @@ def mean_drift(
     ):
         if value not in get_args(allowed):
             raise InputError(f"mean_drift: {name}: one of {', '.join(get_args(allowed))} expected, {value!r} found.")
+    if speed != 0.0 and pairs:
+        raise InputError(
+            "mean_drift: pairs: False expected at speed, where waves of two directions are met at two frequencies."
+        )
+    if speed != 0.0 and method == "far" and np.isfinite(water_depth):
+        raise InputError(
+            f"mean_drift: method: deep water expected for the far field at speed, {water_depth:.4g} m found. "
+            "Take 'control_surface' or 'near'."
+        )
     if workers is not None and (isinstance(workers, bool) or not isinstance(workers, int) or workers < 1):
         raise InputError(f"mean_drift: workers: a number of threads >= 1 or None expected, {workers!r} found.")
     options = Options(

@@ -8,10 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ogilvie.errors import ConvergenceError
+from ogilvie.hydro.bem_forces import SPEED_TERMS
 from ogilvie.hydro.bem_waves import incident
 from ogilvie.hydro.drift_panels import WholeHull
 from ogilvie.hydro.drift_slope import Slopes
 from ogilvie.hydro.drift_solve import Fields, expanded, incident_wave
+from ogilvie.hydro.speed_terms import momentum_at_speed, split
+from ogilvie.waves.dispersion import wavenumber
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -20,15 +23,22 @@ WaterlineRule = Literal["edge", "centre"]
 
 @dataclass(frozen=True, eq=False)
 class Wave:
-    """Incident waves of one frequency.
+    """Incident waves of one frequency, met at one frequency of encounter.
 
     Parameters
     ----------
     omega, k : float
         rad/s, rad/m.
     directions : (n_b,) array
-        rad.
+        rad; at speed all of one frequency of encounter.
     depth, rho, g : float
+    speed : float
+        m/s, along x.
+
+    Notes
+    -----
+    Waves that the ship overtakes, met at omega_e < 0, are described by the conjugates of all amplitudes, which have positive
+    frequencies of encounter: -omega in place of omega, and the opposite direction. Means do not change.
     """
 
     omega: float
@@ -37,11 +47,22 @@ class Wave:
     depth: float
     rho: float
     g: float
+    speed: float = 0.0
+
+    @property
+    def omega_e(self) -> float:
+        """Frequency of encounter, omega - k U cos b, rad/s, > 0."""
+        return self.omega if self.speed == 0.0 else self.omega - self.k * self.speed * float(np.cos(self.directions[0]))
+
+    @property
+    def k_e(self) -> float:
+        """Wavenumber of waves of the frequency of encounter in water at rest, rad/m."""
+        return self.k if self.speed == 0.0 else float(wavenumber(self.omega_e, self.depth, g=self.g))
 
     @property
     def K(self) -> float:
-        """omega^2/g, 1/m."""
-        return self.omega**2 / self.g
+        """omega_e^2/g, 1/m."""
+        return self.omega_e**2 / self.g
 
     @property
     def ratio(self) -> float:
@@ -62,7 +83,10 @@ class Dynamics:
 
 @dataclass(frozen=True, eq=False)
 class FirstOrder:
-    """The first-order solution per metre of wave amplitude, exp(+i omega t).
+    """The first-order solution per metre of wave amplitude, exp(+i omega_e t).
+
+    At speed U it is that of :mod:`ogilvie.hydro.bem_forces`: radiation and diffraction with the Green function of zero speed
+    at the frequency of encounter, normal velocity i omega_e n_j + U m_j, forces by Tuck's theorem.
 
     Parameters
     ----------
@@ -84,17 +108,17 @@ class FirstOrder:
 
     @cached_property
     def weights(self) -> Complex:
-        """Parts (n_b, 6 + n_b) that the stored potentials have in the total: i omega xi_j, and i g/omega for diffraction."""
-        n_b = len(self.wave.directions)
-        diffracted = 1j * self.wave.g / self.wave.omega * np.eye(n_b)
-        return np.concatenate([1j * self.wave.omega * self.motion, diffracted], axis=1)
+        """Parts (n_b, 6 + n_b) of the stored potentials in the total: i omega_e xi + U C xi, and i g/omega for diffraction."""
+        w, n_b = self.wave, len(self.wave.directions)
+        radiated = 1j * w.omega_e * self.motion + w.speed * self.motion @ SPEED_TERMS.T
+        return np.concatenate([radiated, 1j * w.g / w.omega * np.eye(n_b)], axis=1)
 
     @cached_property
     def radiation(self) -> tuple[Array, Array]:
         """Added mass and damping (6, 6) about O."""
-        phi = expanded(self.fields.potential[:6], self.hull.panels)
-        T = -self.wave.rho * phi @ self._loads
-        return T.T.real, -self.wave.omega * T.T.imag
+        w, phi = self.wave, expanded(self.fields.potential[:6], self.hull.panels)
+        T = (-w.rho * phi @ self._loads).T
+        return split(momentum_at_speed(T, w.omega_e, w.speed, -SPEED_TERMS), np.array(w.omega_e))
 
     @cached_property
     def excitation(self) -> Complex:
@@ -104,14 +128,14 @@ class FirstOrder:
             self.hull.panels, omega=w.omega, k=w.k, direction=w.directions, depth=w.depth, rho=w.rho, g=w.g
         )
         phi = expanded(self.fields.potential[6:], self.hull.panels)
-        return np.asarray(froude_krylov - w.rho * w.g * phi @ self._loads)
+        return np.asarray(froude_krylov + 1j * w.rho * w.g / w.omega * self.rate_of_momentum(phi))
 
     @cached_property
     def motion(self) -> Complex:
         """Motion of O (n_b, 6), m/m and rad/m; zero for a fixed body."""
         if self.dynamics is None:
             return np.zeros((len(self.wave.directions), 6), dtype=complex)
-        d, w = self.dynamics, self.wave.omega
+        d, w = self.dynamics, self.wave.omega_e
         A, B = self.radiation
         Z = -(w**2) * (d.mass + A) + 1j * w * (B + d.external_damping) + d.stiffness + d.external_stiffness
         size = np.sqrt(np.abs(np.diag(Z)))
@@ -124,7 +148,7 @@ class FirstOrder:
         """First-order force of the water (n_b, 3): what accelerates the body, less what external means contribute."""
         if self.dynamics is None:
             return self.excitation[:, :3]
-        d, w = self.dynamics, self.wave.omega
+        d, w = self.dynamics, self.wave.omega_e
         inertia = -(w**2) * d.mass + d.external_stiffness + 1j * w * d.external_damping
         return np.asarray((self.motion @ inertia.T)[:, :3])
 
@@ -134,7 +158,7 @@ class FirstOrder:
         if self.dynamics is None:
             return np.zeros((len(self.motion),) * 2, dtype=complex)
         B = 0.5 * (self.dynamics.external_damping + self.dynamics.external_damping.T)
-        return np.asarray(0.5 * self.wave.omega**2 * self.motion @ B @ self.motion.conj().T)
+        return np.asarray(0.5 * self.wave.omega_e**2 * self.motion @ B @ self.motion.conj().T)
 
     @cached_property
     def potential(self) -> Complex:
@@ -147,6 +171,16 @@ class FirstOrder:
         n_b, n_hull = len(self.wave.directions), self.hull.panels.n_hull
         sigma = self.strengths.reshape(n_b, len(self.hull.panels.images), -1)[:, :, :n_hull].reshape(n_b, -1)
         return np.asarray(self._total(self.hull.centers, self.fields)[1] + self.slopes.missing(sigma))
+
+    @cached_property
+    def scattered_potential(self) -> Complex:
+        """Potential (n_b, n) of the scattered and radiated waves at the panels, m2/s."""
+        return self._scattered(self.fields)[0]
+
+    def scattered_flow(self, points: Array, normals: Array) -> Complex:
+        """Return the normal velocity (n_b, n) that scattered and radiated waves must have on the hull."""
+        radiated = self.weights[:, :6] @ np.concatenate([normals, np.cross(points, normals)], axis=1).T
+        return np.asarray(radiated - np.einsum("bni,ni->bn", self.incident(points)[1], normals))
 
     def at(self, points: Array, fields: Fields) -> tuple[Complex, Complex]:
         """Return the total potential (n_b, n) and velocity (n_b, n, 3) at points (n, 3) with the fields there."""
@@ -166,9 +200,40 @@ class FirstOrder:
         level, slope = self._scattered(self.fields)
         arm = line.middle - self.hull.centers[line.owner]
         scattered = level[:, line.owner] + np.einsum("bni,ni->bn", slope[:, line.owner], arm)
-        w = self.wave
-        wave, _ = incident_wave(line.middle, k=w.k, directions=w.directions, depth=w.depth)
-        return np.asarray(scattered + 1j * w.g / w.omega * wave)
+        return np.asarray(scattered + self.incident(line.middle)[0])
+
+    def elevation(self, rule: WaterlineRule) -> Complex:
+        """Return the total elevation (n_b, n) -(i omega_e phi - U d phi/dx)/g at the waterline's edges.
+
+        Notes
+        -----
+        At speed the velocity of the scattered waves is extrapolated along the hull from the two highest rows of panels, that of
+        the incident wave is exact. "centre" takes the panel's value.
+        """
+        w, line = self.wave, self.hull.waterline
+        eta = -1j * w.omega_e / w.g * self.at_waterline(rule)
+        if w.speed == 0.0:
+            return eta
+        if rule == "centre":
+            return np.asarray(eta + w.speed / w.g * self.velocity[:, line.owner, 0])
+        slope = self.velocity[..., 0] - self.incident(self.hull.centers)[1][..., 0]
+        top, below = slope[:, line.owner], slope[:, line.below]
+        along = top + (top - below) * line.beyond + self.incident(line.middle)[1][..., 0]
+        return np.asarray(eta + w.speed / w.g * along)
+
+    def momentum(self, phi: Complex) -> Complex:
+        """Return the integral (n_f, 6) of phi (n, x x n) dS for potentials (n_f, n) at the panels."""
+        return np.asarray(phi @ self._loads)
+
+    def rate_of_momentum(self, phi: Complex) -> Complex:
+        """Return the integral (n_f, 6) of (i omega_e n_i - U m_i) phi dS for potentials (n_f, n) at the panels.
+
+        Notes
+        -----
+        That is the integral of (i omega_e phi - U d phi/dx) n_i by Tuck's theorem.
+        """
+        loads = self.momentum(phi)
+        return np.asarray(1j * self.wave.omega_e * loads - self.wave.speed * loads @ SPEED_TERMS)
 
     @cached_property
     def strengths(self) -> Complex:
@@ -181,11 +246,14 @@ class FirstOrder:
         return np.concatenate([n, np.cross(x, n)], axis=1) * self.hull.areas[:, None]
 
     def _total(self, points: Array, fields: Fields) -> tuple[Complex, Complex]:
+        (level, slope), (wave, gradient) = self._scattered(fields), self.incident(points)
+        return level + wave, slope + gradient
+
+    def incident(self, points: Array) -> tuple[Complex, Complex]:
+        """Return potential (n_b, n) and velocity (n_b, n, 3) of the incident wave at points (n, 3)."""
         w = self.wave
         wave, gradient = incident_wave(points, k=w.k, directions=w.directions, depth=w.depth)
-        level, slope = self._scattered(fields)
-        unit = 1j * w.g / w.omega
-        return level + unit * wave, slope + unit * gradient
+        return 1j * w.g / w.omega * wave, 1j * w.g / w.omega * gradient
 
     def _scattered(self, fields: Fields) -> tuple[Complex, Complex]:
         panels = self.hull.panels

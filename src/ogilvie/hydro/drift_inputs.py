@@ -15,6 +15,7 @@ from ogilvie.mesh.panels import PanelMesh
 Array = NDArray[np.float64]
 
 _AFLOAT = 0.015  # part of the displacement by which a free body's weight may differ from its buoyancy
+_STANDING = 0.01  # part of the frequency below which that of encounter counts as zero
 _UPRIGHT = 0.005  # part of length and beam by which the centre of gravity may be off that of buoyancy
 
 
@@ -28,8 +29,9 @@ def checked_case(
     rho: float,
     g: float,
     depth: float,
+    speed: float = 0.0,
 ) -> Case:
-    """Return the case of a hull at rest, with messages in the name of `purpose`.
+    """Return the case of a hull, with messages in the name of `purpose`.
 
     Raises
     ------
@@ -46,7 +48,7 @@ def checked_case(
             rho=rho,
             g=g,
             water_depth=depth,
-            speed=0.0,
+            speed=speed,
             irregular_frequencies=irregular,
         )
     except InputError as e:
@@ -54,6 +56,14 @@ def checked_case(
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         warn_if_coarse(case)
+    slow = np.argwhere(np.abs(case.encounter) < _STANDING * case.omega[:, None])
+    if len(slow):
+        i, j = slow[0]
+        raise InputError(
+            f"{purpose}: waves that move relative to the ship expected, a frequency of encounter of "
+            f"{case.encounter[i, j]:.3g} rad/s found at {case.omega[i]:.4g} rad/s in direction "
+            f"{np.degrees(case.direction[j]):.4g} deg. Move this frequency or direction a little."
+        )
     for warning in caught:
         warnings.warn(str(warning.message).replace("solve_bem", purpose), OgilvieWarning, stacklevel=3)
     return case

@@ -29,38 +29,55 @@ class OnHull:
     Parameters
     ----------
     omega : (m,) array
-        rad/s.
+        Frequency of oscillation (of encounter), rad/s.
     motion : (m, 6) array
         Motion of O per metre of amplitude.
     velocity : (m, n, 3) array
         Of the water at the panels' centres.
     loads : (m, 6) array
-        Integral of phi_t (n, x x n) dS.
-    elevation : (m, n_l) array
+        Integral of (d/dt - U d/dx) phi (n, x x n) dS, by Tuck's theorem.
+    momentum : (m, 6) array
+        Integral of phi (n, x x n) dS.
+    elevation, potential : (m, n_l) array
         At the middles of the waterline's edges.
     force : (m, 3) array
         First-order force of the water.
+    speed : float
+        U, m/s; one for all waves.
     """
 
     omega: Array
     motion: Complex
     velocity: Complex
     loads: Complex
+    momentum: Complex
     elevation: Complex
+    potential: Complex
     force: Complex
+    speed: float
+
+    def hull_velocity(self, x: Array) -> Complex:
+        """Return V = (d/dt - U d/dx) X = i omega X - U R x e_x (m, n, 3) at points x (n, 3); phi_n = V . n."""
+        V = 1j * self.omega[:, None, None] * displacement(self.motion, x)
+        if self.speed != 0.0:
+            V[..., 1] -= self.speed * self.motion[:, None, 5]
+            V[..., 2] += self.speed * self.motion[:, None, 4]
+        return np.asarray(V)
 
 
 def on_hull(first: FirstOrder, rule: WaterlineRule) -> OnHull:
     """Return the quantities of one frequency, one wave per direction."""
-    w, hull = first.wave, first.hull
-    dS = with_moment(hull.centers, hull.normals * hull.areas[:, None])
+    w = first.wave
     return OnHull(
-        omega=np.full(len(w.directions), w.omega),
+        omega=np.full(len(w.directions), w.omega_e),
         motion=first.motion,
         velocity=first.velocity,
-        loads=1j * w.omega * first.potential @ dS,
-        elevation=-1j * w.omega / w.g * first.at_waterline(rule),
+        loads=first.rate_of_momentum(first.potential),
+        momentum=first.momentum(first.potential),
+        elevation=first.elevation(rule),
+        potential=first.at_waterline(rule),
         force=first.pressure_force,
+        speed=w.speed,
     )
 
 
@@ -84,12 +101,26 @@ def near_terms(waves: OnHull, hull: WholeHull, *, rotation: Rotation, rho: float
     dict
         waterline, velocity (|grad phi|^2), displacement (X . grad phi_t), rotation (first-order pressure on a turned hull),
         static (still water on the motions of second order).
+
+    Notes
+    -----
+    At speed phi_t becomes phi_t - U d phi/dx, and no second derivative is needed: with R x e_x = dX/dx
+
+        int X . grad(phi_t - U phi_x) n_i dS
+            = int [ X . grad phi_t + U (R x e_x) . grad phi ] n_i dS - U int (X . grad phi) m_i dS
+
+    by Tuck's theorem for X . grad phi; m_i is zero for forces, and -e_x x n for moments.
     """
     dS = with_moment(hull.centers, hull.normals * hull.areas[:, None])
     v, rate = waves.velocity, 1j * waves.omega[:, None]
     X = displacement(waves.motion, hull.centers)
     velocity = np.sum([integral(v[..., i], v[..., i], dS) for i in range(3)], axis=0)
     shifted = np.sum([integral(X[..., i], rate * v[..., i], dS) for i in range(3)], axis=0)
+    if waves.speed != 0.0:
+        R = waves.motion[:, 3:, None] * np.ones(len(dS))
+        shifted = shifted + waves.speed * (integral(R[:, 2], v[..., 1], dS) - integral(R[:, 1], v[..., 2], dS))
+        along = np.sum([integral(X[..., i], v[..., i], dS[:, :3]) for i in range(3)], axis=0)
+        shifted[..., 3:] += waves.speed * np.cross([1.0, 0.0, 0.0], along)
     return {
         "waterline": strip_force(waves.elevation, waves.motion, hull.waterline, rho * g),
         "velocity": 0.5 * rho * velocity,
@@ -102,8 +133,7 @@ def near_terms(waves: OnHull, hull: WholeHull, *, rotation: Rotation, rho: float
 def waterline_force(first: FirstOrder, rule: WaterlineRule) -> Complex:
     """Return -rho g/2 oint <zeta_r^2> n/(1 - n_z^2)^(1/2) dl and its moment (n_b, n_b, 6)."""
     w = first.wave
-    eta = -1j * w.omega / w.g * first.at_waterline(rule)
-    return strip_force(eta, first.motion, first.hull.waterline, w.rho * w.g)
+    return strip_force(first.elevation(rule), first.motion, first.hull.waterline, w.rho * w.g)
 
 
 def strip_force(eta: Complex, motion: Complex, line: Waterline, unit: float) -> Complex:

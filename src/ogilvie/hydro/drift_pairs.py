@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ogilvie.hydro.bem_case import SHALLOWEST, Case
 from ogilvie.hydro.drift_control import OnSurface, control_terms, on_surface
 from ogilvie.hydro.drift_far import far_field
-from ogilvie.hydro.drift_first import Dynamics, WaterlineRule
+from ogilvie.hydro.drift_first import Dynamics, WaterlineRule, Wave
 from ogilvie.hydro.drift_forms import cross_mean
 from ogilvie.hydro.drift_near import OnHull, near_terms, on_hull
 from ogilvie.hydro.drift_run import Solver
@@ -77,7 +77,7 @@ def quadratic_forces(
         surface = control_surface(solver.hull, k=float(case.k.max()), depth=case.depth)
     waves, outer, far, radiation, excitation = [], [], [], [], []
     for i in tracked(range(len(case.omega)), show=progress, title=f"second order of {case.panels.hull.name}"):
-        first = solver.first_order(float(case.omega[i]), float(case.k[i]), dynamics)
+        first = solver.first_order(_wave(case, float(case.omega[i]), float(case.k[i])), dynamics)
         waves.append(on_hull(first, choice.waterline))
         radiation.append(first.radiation)
         excitation.append(first.excitation)
@@ -97,6 +97,10 @@ def quadratic_forces(
         pairs = full.transpose(0, 2, 1, 3, 4).reshape(n_w, n_w, n_b * n_b, 6)
         return Quadratic(np.einsum("pbqbi->pqbi", full), pairs, methods[0], *order)
     return Quadratic(np.stack(forms, axis=2) + bound, None, methods[0], *order)
+
+
+def _wave(case: Case, omega: float, k: float) -> Wave:
+    return Wave(omega, k, case.direction, case.depth, case.rho, case.g)
 
 
 def _form(
@@ -120,14 +124,18 @@ def _form(
 
 
 def _side_by_side(waves: Sequence[OnHull], group: Ints) -> OnHull:
-    names = ("omega", "motion", "velocity", "loads", "elevation", "force")
-    return OnHull(*(np.concatenate([getattr(w, name)[group] for w in waves]) for name in names))
+    names = ("omega", "motion", "velocity", "loads", "momentum", "elevation", "potential", "force")
+    parts = {name: np.concatenate([getattr(w, name)[group] for w in waves]) for name in names}
+    return OnHull(**parts, speed=0.0)
 
 
 def _around(outer: Sequence[OnSurface], group: Ints) -> OnSurface:
     phi = [np.concatenate([o.phi[i][group] for o in outer]) for i in range(4)]
     v = [np.concatenate([o.v[i][group] for o in outer]) for i in range(4)]
-    return OnSurface(outer[0].surface, np.concatenate([o.K[group] for o in outer]), phi, v)
+    K, excess = (
+        np.concatenate([part[group] for part in parts]) for parts in zip(*((o.K, o.excess) for o in outer), strict=True)
+    )
+    return OnSurface(outer[0].surface, K, phi, v, excess)
 
 
 def _bound(case: Case, solver: Solver, choice: Choice) -> Complex:
@@ -140,7 +148,8 @@ def _bound(case: Case, solver: Solver, choice: Choice) -> Complex:
     M0, M1, _ = case.panels.hull.moments
     about = np.array([M1[2, 1] - M1[1, 2], M1[0, 2] - M1[2, 0], M1[1, 0] - M1[0, 1]])  # integral of x x n
     still = -case.rho * case.g * np.tile(np.concatenate([M0, about]), (shape[2], 1))
-    X = np.array([still, *(solver.first_order(float(w), float(x), None).excitation for w, x in zip(omega, k, strict=True))])
+    waves = [_wave(case, float(w), float(x)) for w, x in zip(omega, k, strict=True)]
+    X = np.array([still, *(solver.first_order(wave, None).excitation for wave in waves)])
     nodes = np.concatenate([[0.0], k])
     parts = [
         bound_force(case.omega, case.k, nodes=nodes, excitation=X[:, b], depth=case.depth, g=case.g) for b in range(shape[2])

@@ -31,12 +31,18 @@ class Waterline:
         n/(1 - n_z^2)^(1/2): horizontal part of unit length, out of the body; the third entry is the slope of the flare.
     length : (n,) array
         m.
+    below : (n,) int array
+        Next panel under the owner on the same smooth surface; the owner itself where there is none.
+    beyond : (n,) array
+        Distance from owner to edge over that from `below` to owner.
     """
 
     owner: Ints
     middle: Array
     normal: Array
     length: Array
+    below: Ints
+    beyond: Array
 
     @property
     def tangent(self) -> Array:
@@ -91,8 +97,9 @@ class WholeHull:
         """Edges of all panels, copy by copy."""
         one, n = self.stored_waterline, self.panels.n_hull
         copies = len(self.panels.images)
-        owner = np.concatenate([one.owner + c * n for c in range(copies)])
-        return Waterline(owner, self.copied(one.middle), self.copied(one.normal), np.tile(one.length, copies))
+        owner, below = (np.concatenate([part + c * n for c in range(copies)]) for part in (one.owner, one.below))
+        length, beyond = np.tile(one.length, copies), np.tile(one.beyond, copies)
+        return Waterline(owner, self.copied(one.middle), self.copied(one.normal), length, below, beyond)
 
     def copied(self, vectors: Array) -> Array:
         """Return vectors (n, 3) of the stored panels, mirrored to all copies (n_c n, 3)."""
@@ -125,23 +132,23 @@ def find_waterline(hull: PanelMesh) -> Waterline:
     length = np.linalg.norm(step, axis=1)
     middle = 0.5 * (v[start] + v[end])
     middle[:, 2] = 0.0
-    slope = _slopes(hull, merged, owner, middle)
-    normal = np.stack([-step[:, 1] / length, step[:, 0] / length, slope], axis=1)
-    return Waterline(owner.astype(np.int64), middle, normal, length)
+    below, beyond = _next_row(hull, merged, owner, middle)
+    own, lower = _tangent_of_flare(hull.normals[owner]), _tangent_of_flare(hull.normals[below])
+    normal = np.stack([-step[:, 1] / length, step[:, 0] / length, own + (own - lower) * beyond], axis=1)
+    return Waterline(owner.astype(np.int64), middle, normal, length, below, beyond)
 
 
-def _slopes(hull: PanelMesh, faces: Ints, owner: Ints, middle: Array) -> Array:
-    """Return n_z/(1 - n_z^2)^(1/2) at the waterline, extrapolated from the panel and its neighbour below."""
+def _next_row(hull: PanelMesh, faces: Ints, owner: Ints, middle: Array) -> tuple[Ints, Array]:
+    """Return the panel below each of `owner`, and the distance owner to edge over that from it to the owner (0 without)."""
     n, c = hull.normals, hull.centers
-    own = _tangent_of_flare(n[owner])
     below = _neighbour_below(faces, c[:, 2], owner)
     has = below >= 0
     next_one = np.where(has, below, owner)
     has &= np.einsum("ei,ei->e", n[owner], n[next_one]) > _SMOOTH
+    next_one = np.where(has, next_one, owner).astype(np.int64)
     d1 = np.linalg.norm(c[owner] - middle, axis=1)
     d2 = np.linalg.norm(c[next_one] - c[owner], axis=1)
-    rate = np.where(has, (own - _tangent_of_flare(n[next_one])) / np.where(has, d2, 1.0), 0.0)
-    return np.asarray(own + rate * d1)
+    return next_one, np.where(has, d1 / np.where(has, d2, 1.0), 0.0)
 
 
 def _tangent_of_flare(n: Array) -> Array:

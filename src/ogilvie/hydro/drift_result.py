@@ -15,8 +15,11 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Method = Literal["auto", "near", "far", "control_surface"]
 
-#: Beyond these energy and methods are flagged.
+#: Beyond these energy and methods are flagged, at rest and at speed, where the theory itself is less exact.
 ENERGY_LIMIT, METHOD_LIMIT, VERTICAL_LIMIT = 0.02, 0.10, 0.5
+ENERGY_LIMIT_AT_SPEED, METHOD_LIMIT_AT_SPEED = 0.10, 0.30
+#: Smallest U omega_e/g at which waves radiated ahead of a moving ship stay behind it.
+_CRITICAL = 0.25
 _HORIZONTAL, _VERTICAL = [0, 1, 5], [2, 3, 4]
 _SMALL = 0.1  # of a dof's largest value at all frequencies: less than this is measured against this
 _PART = 0.05  # of the largest horizontal force at that frequency (in yaw times the length): the same
@@ -50,18 +53,22 @@ def as_dataset(case: Case, found: Sequence[Drift], *, method: Method, moments: s
             result[f"{name}_terms"] = part
     if pairs:
         result = result.merge(_pairs(best, case.direction))
-    result = result.merge(_quality(full, found))
+    limits = (ENERGY_LIMIT, METHOD_LIMIT) if case.speed == 0.0 else (ENERGY_LIMIT_AT_SPEED, METHOD_LIMIT_AT_SPEED)
+    result = result.merge(_quality(full, found, *limits))
+    if case.speed != 0.0:
+        result["encounter_frequency"] = (_DIMS[:2], case.encounter)
+        result["flag_slow_encounter"] = (_DIMS[:2], np.abs(case.speed * case.encounter) / case.g < _CRITICAL)
     result.attrs = {
         "rho": case.rho,
         "g": case.g,
         "water_depth": case.depth,
-        "speed": 0.0,
+        "speed": case.speed,
         "moments": moments,
         "name": case.panels.hull.name,
         "time_convention": "exp(+iwt)",
         "units": "N/m2, N m/m2 per square metre of wave amplitude",
     }
-    return result.assign_attrs(summary=_summary(result))
+    return result.assign_attrs(summary=_summary(result, *limits))
 
 
 def _best(full: dict[str, Complex], method: Method) -> tuple[Complex, list[str]]:
@@ -95,12 +102,14 @@ def _pairs(best: Complex, directions: Array) -> xr.Dataset:
     return xr.Dataset({"mean_drift_pairs": (("omega", "drift_pair", "influenced_dof"), values)}, coords=coords)
 
 
-def _quality(full: dict[str, Complex], found: Sequence[Drift]) -> xr.Dataset:
+def _quality(full: dict[str, Complex], found: Sequence[Drift], energy: float, method: float) -> xr.Dataset:
     radiated, removed = np.array([d.far.radiated for d in found]), np.array([d.far.removed for d in found])
     scale = np.maximum(np.maximum(np.abs(radiated), np.abs(removed)), _LITTLE_POWER * np.array([d.flux for d in found]))
+    if energy != ENERGY_LIMIT:
+        scale = np.maximum(scale, _SMALL * scale.max(axis=0))
     imbalance = (radiated - removed) / scale
     two = _DIMS[:2]
-    out: dict[str, tuple] = {"energy_imbalance": (two, imbalance), "flag_energy": (two, np.abs(imbalance) > ENERGY_LIMIT)}
+    out: dict[str, tuple] = {"energy_imbalance": (two, imbalance), "flag_energy": (two, np.abs(imbalance) > energy)}
     far = _alone(full["momentum"])
     push = np.array([d.flux.max() * d.slowness for d in found])
     scale_of = _scales(far, push, found[0].length)
@@ -108,7 +117,7 @@ def _quality(full: dict[str, Complex], found: Sequence[Drift]) -> xr.Dataset:
         if name in full:
             difference = np.abs(_alone(full[name]) - far) / scale_of
             out[f"difference_{name}"] = (_DIMS, difference)
-            out[f"flag_{name}"] = (two, (difference[..., _HORIZONTAL] > METHOD_LIMIT).any(axis=-1))
+            out[f"flag_{name}"] = (two, (difference[..., _HORIZONTAL] > method).any(axis=-1))
     if {"pressure", "control_surface"} <= set(full):
         apart = _apart(_alone(full["pressure"])[..., _VERTICAL], _alone(full["control_surface"])[..., _VERTICAL])
         out["flag_vertical"] = (two, (apart > VERTICAL_LIMIT).any(axis=-1))
@@ -141,25 +150,35 @@ def _scales(far: Array, push: Array, length: float) -> Array:
     return size
 
 
-def _summary(result: xr.Dataset) -> str:
+def _summary(result: xr.Dataset, energy: float, method: float) -> str:
     worst = float(np.abs(result.energy_imbalance).max())
     flagged = int(result.flag_energy.sum())
+    at = "" if result.attrs["speed"] == 0.0 else f" at {result.attrs['speed']:.4g} m/s"
     lines = [
-        f"mean drift of {result.attrs['name']}: {result.sizes['omega']} frequencies, "
+        f"mean drift of {result.attrs['name']}{at}: {result.sizes['omega']} frequencies, "
         f"{result.sizes['wave_direction']} directions",
         f"taken from: {result.mean_drift.attrs['method']}",
-        f"energy out of balance by up to {100 * worst:.2g} % ({flagged} of {result.flag_energy.size} points above "
-        f"{100 * ENERGY_LIMIT:.0f} %)",
     ]
+    if np.isfinite(worst):
+        lines.append(
+            f"energy out of balance by up to {100 * worst:.2g} % ({flagged} of {result.flag_energy.size} points above "
+            f"{100 * energy:.0f} %)"
+        )
     for name in ("pressure", "control_surface"):
         if f"flag_{name}" in result:
-            d = result[f"difference_{name}"]
-            parts = ", ".join(f"{DOFS[i]} {100 * float(d[..., i].max()):.2g} %" for i in _HORIZONTAL)
+            worst_of = {DOFS[i]: float(result[f"difference_{name}"][..., i].max()) for i in _HORIZONTAL}
+            parts = ", ".join(f"{dof} {100 * d:.2g} %" for dof, d in worst_of.items() if np.isfinite(d))
             flags = int(result[f"flag_{name}"].sum())
-            lines.append(f"{_WORDS[name]} against far field: {parts} at most ({flags} points above {100 * METHOD_LIMIT:.0f} %)")
+            if parts:
+                lines.append(f"{_WORDS[name]} against far field: {parts} at most ({flags} points above {100 * method:.0f} %)")
     if "flag_vertical" in result and result.flag_vertical.any():
         lines.append(
             f"heave, roll or pitch by near field and control surface more than {100 * VERTICAL_LIMIT:.0f} % apart at "
             f"{int(result.flag_vertical.sum())} of {result.flag_vertical.size} points: neither is confirmed there"
+        )
+    if "flag_slow_encounter" in result and result.flag_slow_encounter.any():
+        lines.append(
+            f"U omega_e/g below {_CRITICAL:g} at {int(result.flag_slow_encounter.sum())} of {result.flag_slow_encounter.size} "
+            "points: waves run ahead of the ship, which this theory of speed does not describe well"
         )
     return "\n".join(lines)

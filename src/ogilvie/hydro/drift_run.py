@@ -1,8 +1,8 @@
 """Frequencies one after the other: from the panels to the terms of the mean drift by every method."""
 
 import os
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,9 +11,11 @@ from ogilvie.errors import InputError
 from ogilvie.hydro.bem_case import Case
 from ogilvie.hydro.capytaine import frequency_threads, green_settings, source_influence, surface_green_function
 from ogilvie.hydro.drift_control import control_drift
+from ogilvie.hydro.drift_encounter import placed, placed_pairs, waves_met
 from ogilvie.hydro.drift_far import FarField, far_field
 from ogilvie.hydro.drift_first import Dynamics, FirstOrder, WaterlineRule, Wave
 from ogilvie.hydro.drift_forms import cross_mean
+from ogilvie.hydro.drift_maruo import far_field_at_speed
 from ogilvie.hydro.drift_near import near_field
 from ogilvie.hydro.drift_panels import WholeHull
 from ogilvie.hydro.drift_slope import find_slopes
@@ -24,6 +26,7 @@ from ogilvie.hydro.drift_surface import ControlSurface, control_surface
 from ogilvie.hydro.progress import tracked
 
 Array = NDArray[np.float64]
+Ints = NDArray[np.int64]
 Complex = NDArray[np.complex128]
 
 #: Raised whenever the same problem would give other fields than before.
@@ -75,24 +78,45 @@ class Drift:
 def drifts(case: Case, dynamics: Dynamics | None, options: Options) -> list[Drift]:
     """Return the drift at every frequency of a case."""
     solver = Solver(case, cache=options.cache, workers=options.workers)
-    hull, out = solver.hull, []
+    out = []
     for i in tracked(range(len(case.omega)), show=options.progress, title=f"drift of {case.panels.hull.name}"):
-        first = solver.first_order(float(case.omega[i]), float(case.k[i]), dynamics)
-        wave = first.wave
-        terms: dict[str, Complex] = {}
-        if options.control:
-            surface = control_surface(hull, k=wave.k, depth=wave.depth)
-            fields = solver.at_surface(wave, surface, first.fields)
-            terms = control_drift(first, surface, fields, rotation=options.rotation, waterline=options.waterline)
-        near = near_field(first, rotation=options.rotation, waterline=options.waterline)
-        shift = cross_mean(first.motion[:, :3], first.pressure_force)
-        out.append(
-            Drift(
-                near, terms, far_field(first), shift, first.motion, _flux(first), wave.k / wave.omega, case.panels.hull.length
-            )
-        )
+        parts = [(place, _drift(solver, wave, dynamics, options)) for place, wave in waves_met(case, i)]
+        out.append(parts[0][1] if case.speed == 0.0 else _merged(parts))
     solver.finish()
     return out
+
+
+def _drift(solver: "Solver", wave: Wave, dynamics: Dynamics | None, options: Options) -> Drift:
+    first = solver.first_order(wave, dynamics)
+    terms: dict[str, Complex] = {}
+    if options.control:
+        surface = control_surface(solver.hull, k=max(wave.k, wave.k_e), depth=wave.depth)
+        fields = solver.at_surface(wave, surface, first.fields)
+        terms = control_drift(first, surface, fields, rotation=options.rotation, waterline=options.waterline)
+    near = near_field(first, rotation=options.rotation, waterline=options.waterline)
+    far = far_field(first) if wave.speed == 0.0 else far_field_at_speed(first)
+    motion = first.motion if wave.omega > 0.0 else first.motion.conj()
+    shift, flux = cross_mean(first.motion[:, :3], first.pressure_force), _flux(first)
+    return Drift(near, terms, far, shift, motion, flux, wave.k / abs(wave.omega), solver.hull.panels.hull.length)
+
+
+def _merged(parts: Sequence[tuple[Ints, Drift]]) -> Drift:
+    """Return the drift of all directions from those of some; pairs of directions with different omega_e are zero."""
+    places, found = [place for place, _ in parts], [drift for _, drift in parts]
+    far = FarField(
+        placed_pairs(places, [d.far.force for d in found]),
+        placed(places, [d.far.radiated for d in found]),
+        placed(places, [d.far.removed for d in found]),
+    )
+    return replace(
+        found[0],
+        near={key: placed_pairs(places, [d.near[key] for d in found]) for key in found[0].near},
+        control={key: placed_pairs(places, [d.control[key] for d in found]) for key in found[0].control},
+        far=far,
+        shift=placed_pairs(places, [d.shift for d in found]),
+        motion=placed(places, [d.motion for d in found]),
+        flux=placed(places, [d.flux for d in found]),
+    )
 
 
 class Solver:
@@ -122,10 +146,8 @@ class Solver:
         self._slopes = find_slopes(self.hull)
         self._ready: tuple | None = None
 
-    def first_order(self, omega: float, k: float, dynamics: Dynamics | None) -> FirstOrder:
-        """Return the first-order solution at one frequency (rad/s; k in rad/m) for all directions of the case."""
-        c = self._case
-        wave = Wave(omega, k, c.direction, c.depth, c.rho, c.g)
+    def first_order(self, wave: Wave, dynamics: Dynamics | None) -> FirstOrder:
+        """Return the first-order solution in waves."""
         return FirstOrder(wave, self.hull, self._slopes, self.at_hull(wave), dynamics)
 
     def finish(self) -> None:
@@ -140,7 +162,7 @@ class Solver:
         if missing:
             green, corrections = self._tools()
             panels, b = self._case.panels, np.array([wave.directions[i - 1] for i in missing if i > 0])
-            sources = source_influence(green, panels.facets, wave.k, wave.depth)
+            sources = source_influence(green, panels.facets, wave.k_e, wave.depth)
             with frequency_threads(self._case, self._workers):
                 new = solve_sources(
                     panels, sources, corrections=corrections, k=wave.k, K=wave.K, directions=b, depth=wave.depth
@@ -158,7 +180,7 @@ class Solver:
         if any(field is None or field.potential.shape[2] != len(surface.points) for field in kept):
             green, _ = self._tools()
             panels = self._case.panels
-            sources = source_influence(green, panels.facets, wave.k, wave.depth)
+            sources = source_influence(green, panels.facets, wave.k_e, wave.depth)
             with frequency_threads(self._case, self._workers):
                 found = fields_at(panels, sources, hull_fields.sources, surface.points)
             kept = list(split(Fields(np.zeros((len(found.potential), 0), dtype=complex), found.potential, found.velocity)))
@@ -178,17 +200,18 @@ class Solver:
     def _load(self, wave: Wave, where: str) -> list[Fields | None]:
         if self._store is None:
             return [None] * (1 + len(wave.directions))
-        return self._store.load(wave.k, wave.directions, where=where)
+        return self._store.load(wave.k_e, wave.directions, where=where, incident=wave.k)
 
     def _save(self, wave: Wave, fields: list[Fields | None], where: str) -> None:
         if self._store is not None:
-            self._store.save(wave.k, wave.directions, [field for field in fields if field is not None], where=where)
+            known = [field for field in fields if field is not None]
+            self._store.save(wave.k_e, wave.directions, known, where=where, incident=wave.k)
 
 
 def _flux(first: FirstOrder) -> Array:
     w = first.wave
     across = first.hull.centers[:, :2] @ np.stack([-np.sin(w.directions), np.cos(w.directions)])
-    return np.asarray(0.5 * w.rho * w.g * w.ratio * w.omega / w.k * np.ptp(across, axis=0))
+    return np.asarray(0.5 * w.rho * w.g * w.ratio * abs(w.omega) / w.k * np.ptp(across, axis=0))
 
 
 def pairs_of(drift: Drift) -> Iterator[tuple[str, Complex]]:

@@ -35,23 +35,25 @@ class FieldStore:
     depth: float
     settings: str
 
-    def load(self, k: float, directions: Array, *, where: str) -> list[Fields | None]:
+    def load(self, k: float, directions: Array, *, where: str, incident: float | None = None) -> list[Fields | None]:
         """Return the fields of radiation (6 potentials) and of each direction (one), None for those not there.
 
         Parameters
         ----------
         k : float
-            rad/m.
+            Of the radiated waves, rad/m.
         directions : (n_b,) array
             rad.
         where : {"hull", "control"}
             At the hull's panels or at the control surface.
+        incident : float, optional
+            Wavenumber of the incident waves where it is another one, at speed, rad/m.
         """
-        return [self._read(name) for name in _names(k, directions, where)]
+        return [self._read(name) for name in _names(k, directions, where, incident)]
 
-    def save(self, k: float, directions: Array, fields: Sequence[Fields], *, where: str) -> None:
+    def save(self, k: float, directions: Array, fields: Sequence[Fields], *, where: str, incident: float | None = None) -> None:
         """Keep fields in the order of :meth:`load`."""
-        for name, field in zip(_names(k, directions, where), fields, strict=True):
+        for name, field in zip(_names(k, directions, where, incident), fields, strict=True):
             self._cache.store(name, {key: getattr(field, key) for key in _KEYS})
 
     def finish(self) -> None:
@@ -83,9 +85,10 @@ def split(fields: Fields) -> list[Fields]:
     return [Fields(*(getattr(fields, key)[part] for key in _KEYS)) for part in slices]
 
 
-def _names(k: float, directions: Array, where: str) -> list[str]:
+def _names(k: float, directions: Array, where: str, incident: float | None) -> list[str]:
     stem = f"{where}-k{_bits(entry(k))}"
-    return [stem, *(f"{stem}-b{_bits(float(b))}" for b in directions)]
+    of = "" if incident is None or entry(incident) == entry(k) else f"-i{_bits(entry(incident))}"
+    return [stem, *(f"{stem}{of}-b{_bits(float(b))}" for b in directions)]
 
 
 def _bits(value: float) -> str:

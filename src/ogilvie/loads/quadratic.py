@@ -1,5 +1,6 @@
 """Forces quadratic in the wave amplitudes: as double sums, by one FFT, and as products of single sums."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -90,6 +91,30 @@ class QuadraticForm:
     def diagonal(self) -> Array:
         """Return the steady force (n, 6) of each component alone, per amplitude squared; for difference frequencies."""
         return self.steady + (self.fields[self.left] * self.fields[self.right].conj()).real.T @ self.weight
+
+
+def weighted_forms(parts: Sequence[tuple[float, QuadraticForm]]) -> QuadraticForm:
+    """Return the sum of forms of the same components, each times a number.
+
+    Examples
+    --------
+    >>> one = QuadraticForm(np.ones((1, 2)), np.array([0]), np.array([0]), np.eye(6)[:1], np.zeros((2, 6)))
+    >>> weighted_forms([(0.25, one), (0.5, one)]).matrix()[0, 1, 0]
+    np.float64(0.75)
+    """
+    if len(parts) == 1 and parts[0][0] == 1.0:
+        return parts[0][1]
+    forms = [form for _, form in parts]
+    first = np.cumsum([0, *(len(form.fields) for form in forms)])[:-1]
+    left, right = ([getattr(f, side) + at for f, at in zip(forms, first, strict=True)] for side in ("left", "right"))
+    return QuadraticForm(
+        np.concatenate([form.fields for form in forms]),
+        np.concatenate(left),
+        np.concatenate(right),
+        np.concatenate([share * form.weight for share, form in parts]),
+        np.sum([share * form.steady for share, form in parts], axis=0),
+        forms[0].difference,
+    )
 
 
 def double_sum(amplitude: ComplexArray, frequency: Array, Q: ComplexArray, t: Array, *, difference: bool = True) -> Array:

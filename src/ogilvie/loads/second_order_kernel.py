@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ogilvie.errors import InputError
 from ogilvie.loads.interpolation import Headings, vessel_headings
-from ogilvie.loads.kernel import ETA, ROTATION, TIME, Kernel, load_kernel
+from ogilvie.loads.kernel import ETA, MEAN_SPEED, ROTATION, TIME, Kernel, load_kernel
 from ogilvie.loads.quadratic import QuadraticForm
 from ogilvie.waves.field import Sea
 from ogilvie.waves.sincos import sines_and_cosines
@@ -19,12 +19,13 @@ _FAST = {"reassoc", "contract", "nsz", "arcp"}
 _STEP = np.radians(3.0)  # of the table over the vessel's heading, rad
 _TURNS_LEAST = np.radians(2.0)  # range of headings below which large motions make no sense
 _LARGEST = 2e7  # numbers in the table
-_HEAD = 8  # n, headings, first heading, step, periodic, ramp, real, difference
+_HEAD = 9  # n, headings, first heading, step, periodic, ramp, real, difference, speeds; then the speeds
 _BLOCK = 2  # fields, products: before the numbers of each heading
 
 
 def second_order_kernel(
-    form: Callable[[float], QuadraticForm],
+    form: Callable[[float, float], QuadraticForm],
+    speeds: Array,
     tabulated: Headings,
     sea: Sea,
     inside: NDArray[np.bool_],
@@ -33,12 +34,15 @@ def second_order_kernel(
     ramp: float,
     who: str,
 ) -> Kernel:
-    """Return the force as a function of time, place and heading.
+    """Return the force as a function of time, place, heading and speed.
 
     Parameters
     ----------
     form : callable
-        ``form(heading)``: the force of the components `inside` on a vessel with this heading in the world, rad.
+        ``form(heading, speed)``: the force of the components `inside` on a vessel with this heading in the world, rad, and this
+        mean speed through the water, m/s.
+    speeds : (n_u,) array
+        Ascending, m/s; a single one where the force does not depend on speed.
     tabulated : Headings
         Directions of the waves relative to the bow for which there are data.
     sea : Sea
@@ -60,7 +64,7 @@ def second_order_kernel(
     -----
     F = Re sum_p weight_p X_left X_right* (without the conjugate at sum frequencies), X_k = sum_j f_kj(psi) a_j exp(i (omega_j t
     - k_j (x cos b_j + y sin b_j) + phase_j)), in the horizontal axes that turn with the vessel; x and y are those of O.
-    Tabulated every 3 degrees of psi, linear between.
+    Tabulated every 3 degrees of psi, linear between; linear in the mean speed, outside `speeds` NaN.
     """
     direction = sea.direction[inside]
     limits = vessel_headings(tabulated, direction, heading)
@@ -71,11 +75,11 @@ def second_order_kernel(
             "position='mean' to take the force at the mean heading."
         )
     grid = _headings(limits)
-    forms = [form(float(psi)) for psi in grid]
+    forms = [form(float(psi), float(u)) for u in speeds for psi in grid]
     w, k = sea.omega[inside], sea.wavenumber[inside]
     amplitude, phase = np.atleast_2d(sea.amplitude)[:, inside], np.atleast_2d(sea.phase)[:, inside]
     if forms[0].steady.any() or not len(forms[0].left):
-        return _steady(forms, amplitude, grid, limits, ramp)
+        return _steady(forms, amplitude, grid, limits, ramp, speeds)
     real = all(not np.iscomplexobj(f.fields) or not f.fields.imag.any() for f in forms)
     blocks = [_packed(f, real=real) for f in forms]
     if sum(map(len, blocks)) > _LARGEST:
@@ -83,11 +87,11 @@ def second_order_kernel(
             f"{who}: at most {_LARGEST:.3g} numbers in the table over the heading expected, {sum(map(len, blocks)):.3g} "
             "found. Raise the tolerance, take fewer components, a Newman approximation, or position='mean'."
         )
-    head = _head(len(w), grid, limits, ramp, real=real, difference=forms[0].difference)
-    places = _HEAD + 3 * len(w) + len(grid) + np.cumsum([0, *map(len, blocks)])[:-1]
+    head = _head(len(w), grid, limits, ramp, speeds, real=real, difference=forms[0].difference)
+    places = len(head) + 3 * len(w) + len(blocks) + np.cumsum([0, *map(len, blocks)])[:-1]
     data = np.concatenate([head, w, k * np.cos(direction), k * np.sin(direction), places, *blocks])
     own = np.concatenate([amplitude, phase], axis=1)
-    return Kernel(_second_order, data, own, _limits(limits), steady=False)
+    return Kernel(_second_order, data, own, _limits(limits, speeds), steady=False)
 
 
 def _headings(limits: tuple[float, float] | None) -> Array:
@@ -97,18 +101,21 @@ def _headings(limits: tuple[float, float] | None) -> Array:
     return np.linspace(*limits, max(2, int(np.ceil((limits[1] - limits[0]) / _STEP)) + 1))
 
 
-def _limits(limits: tuple[float, float] | None) -> str:
-    if limits is None:
-        return ""
-    lo, hi = np.degrees(limits)
-    return f"headings of the vessel {lo:.4g}..{hi:.4g} deg in this sea"
+def _limits(limits: tuple[float, float] | None, speeds: Array) -> str:
+    parts = []
+    if limits is not None:
+        lo, hi = np.degrees(limits)
+        parts.append(f"headings of the vessel {lo:.4g}..{hi:.4g} deg in this sea")
+    if len(speeds) > 1:
+        parts.append(f"mean speeds through the water {speeds[0]:.4g}..{speeds[-1]:.4g} m/s")
+    return " and ".join(parts)
 
 
 def _head(
-    n: int, grid: Array, limits: tuple[float, float] | None, ramp: float, *, real: bool, difference: bool = True
+    n: int, grid: Array, limits: tuple[float, float] | None, ramp: float, speeds: Array, *, real: bool, difference: bool = True
 ) -> Array:
-    periodic = limits is None
-    return np.array([n, len(grid), grid[0], grid[1] - grid[0], periodic, ramp, real, difference], dtype=float)
+    numbers = [n, len(grid), grid[0], grid[1] - grid[0], limits is None, ramp, real, difference, len(speeds)]
+    return np.array([*numbers, *speeds], dtype=float)
 
 
 def _packed(form: QuadraticForm, *, real: bool) -> Array:
@@ -119,12 +126,17 @@ def _packed(form: QuadraticForm, *, real: bool) -> Array:
 
 
 def _steady(
-    forms: list[QuadraticForm], amplitude: Array, grid: Array, limits: tuple[float, float] | None, ramp: float
+    forms: list[QuadraticForm],
+    amplitude: Array,
+    grid: Array,
+    limits: tuple[float, float] | None,
+    ramp: float,
+    speeds: Array,
 ) -> Kernel:
-    """Return the kernel of the mean force, one table over the heading for each realisation."""
+    """Return the kernel of the mean force, one table over speed and heading for each realisation."""
     table = np.einsum("rj,hjd->rhd", amplitude**2, np.array([f.steady for f in forms]))
-    data = _head(0, grid, limits, ramp, real=True)
-    return Kernel(_mean_drift, data, table.reshape(len(table), -1), _limits(limits), steady=False)
+    data = _head(0, grid, limits, ramp, speeds, real=True)
+    return Kernel(_mean_drift, data, table.reshape(len(table), -1), _limits(limits, speeds), steady=False)
 
 
 @njit(cache=True, nogil=True, fastmath=_FAST)
@@ -140,6 +152,22 @@ def _place(heading, data):
         return -1, -1, 0.0
     i = min(max(int(h), 0), n_h - 2)
     return i, i + 1, h - i
+
+
+@njit(cache=True, nogil=True)
+def _speed_place(mean, data):
+    """Return the lower of the two speeds of the table about one, and the share of the other; -1 outside the table."""
+    n_u = int(data[8])
+    if n_u == 1:
+        return 0, 0.0
+    speeds = data[_HEAD : _HEAD + n_u]
+    if mean < speeds[0] - 1e-9 or mean > speeds[n_u - 1] + 1e-9:
+        return -1, 0.0
+    u = 0.0
+    for k in range(n_u - 1):
+        u += min(max((mean - speeds[k]) / (speeds[k + 1] - speeds[k]), 0.0), 1.0)
+    low = min(int(u), n_u - 2)
+    return low, u - low
 
 
 @njit(cache=True, nogil=True, fastmath=_FAST)
@@ -184,13 +212,15 @@ def _add_products(block, n, real, sign, share, cosine, sine, total):
 
 @load_kernel
 def _second_order(x, data, own, force):
-    n, n_h, real = int(data[0]), int(data[1]), data[6] > 0.5
+    n, n_h, n_u, real = int(data[0]), int(data[1]), int(data[8]), data[6] > 0.5
     here, there, s = _place(x[ETA + 5], data)
-    if here < 0:
+    low, share = _speed_place(x[MEAN_SPEED], data)
+    if here < 0 or low < 0:
         force[:] = np.nan
         return
-    omega, kx, ky = data[_HEAD : _HEAD + n], data[_HEAD + n : _HEAD + 2 * n], data[_HEAD + 2 * n : _HEAD + 3 * n]
-    places = data[_HEAD + 3 * n : _HEAD + 3 * n + n_h]
+    first = _HEAD + n_u
+    omega, kx, ky = data[first : first + n], data[first + n : first + 2 * n], data[first + 2 * n : first + 3 * n]
+    places = data[first + 3 * n : first + 3 * n + n_u * n_h]
     angle, sine, cosine, total = np.empty(n), np.empty(n), np.empty(n), np.zeros(6)
     for j in range(n):
         angle[j] = omega[j] * x[TIME] - kx[j] * x[ETA] - ky[j] * x[ETA + 1] + own[n + j]
@@ -199,18 +229,23 @@ def _second_order(x, data, own, force):
         cosine[j] *= own[j]
         sine[j] *= own[j]
     sign = 1.0 if data[7] > 0.5 else -1.0
-    _add_products(data[int(places[here]) :], n, real, sign, 1.0 - s, cosine, sine, total)
-    _add_products(data[int(places[there]) :], n, real, sign, s, cosine, sine, total)
+    for k in range(2 if share > 0.0 else 1):
+        part, row = (share if k == 1 else 1.0 - share), (low + k) * n_h
+        _add_products(data[int(places[row + here]) :], n, real, sign, part * (1.0 - s), cosine, sine, total)
+        _add_products(data[int(places[row + there]) :], n, real, sign, part * s, cosine, sine, total)
     _add_turned(x, data, total, force)
 
 
 @load_kernel
 def _mean_drift(x, data, own, force):
     here, there, s = _place(x[ETA + 5], data)
-    if here < 0:
+    low, share = _speed_place(x[MEAN_SPEED], data)
+    if here < 0 or low < 0:
         force[:] = np.nan
         return
-    total = np.empty(6)
-    for d in range(6):
-        total[d] = (1.0 - s) * own[6 * here + d] + s * own[6 * there + d]
+    total, n_h = np.zeros(6), int(data[1])
+    for k in range(2 if share > 0.0 else 1):
+        part, row = (share if k == 1 else 1.0 - share), 6 * (low + k) * n_h
+        for d in range(6):
+            total[d] += part * ((1.0 - s) * own[row + 6 * here + d] + s * own[row + 6 * there + d])
     _add_turned(x, data, total, force)

@@ -1,9 +1,11 @@
 """Slow drift: second-order wave forces at the differences of the wave frequencies, their mean included."""
 
 import warnings
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
@@ -12,8 +14,9 @@ from ogilvie.hydro.schema import DOFS
 from ogilvie.loads.base import SLOW_DRIFT, ComplexArray, Surroundings, Terms
 from ogilvie.loads.newman import APPROXIMATIONS, drift_table
 from ogilvie.loads.quadratic import QuadraticForm
-from ogilvie.loads.second_order import ForceInSea, check_position
+from ogilvie.loads.second_order import ForceInSea, by_speed, check_position, refuse_other_headings, speed_of
 from ogilvie.loads.transfer import qtf_table
+from ogilvie.loads.wave_drift_damping import WAVE_DRIFT_DAMPING
 from ogilvie.waves.field import Sea
 
 Array = NDArray[Any]
@@ -25,8 +28,9 @@ class SlowDrift:
 
     Parameters
     ----------
-    hydro : xarray.Dataset
-        With ``mean_drift`` for Newman's approximations, ``qtf_diff`` or ``qtf_diff_pairs`` for "full".
+    hydro : xarray.Dataset or sequence of them
+        With ``mean_drift`` for Newman's approximations, ``qtf_diff`` or ``qtf_diff_pairs`` for "full"; or several of one vessel
+        at different speeds and the same headings, for example from :func:`ogilvie.mean_drift` with ``speed=``.
     approximation : {"newman-arithmetic", "newman-geometric", "newman-1974", "full", "mean"}
         How Q(w_i, w_j) follows from the data: see :mod:`ogilvie.loads.newman`; "mean" has no slowly varying part.
     position : {"instantaneous", "mean"}
@@ -40,13 +44,16 @@ class SlowDrift:
     Raises
     ------
     InputError
-        Unknown words; data that are missing or known in part.
+        Unknown words; data that are missing or known in part; several sets that do not belong together.
 
     Notes
     -----
     F(t) = Re sum_i sum_j A_i A_j* Q(w_i, w_j) exp(i (w_ei - w_ej) t) with A = a exp(i phase) and signed encounter frequencies
     w_e, evaluated as products of single sums. During a ramp the sea grows with r(t) and the force with r(t)^2. Components that
     the data do not hold (heave, roll and pitch of far-field drift) are zero: :attr:`dofs` names those that act.
+    From data at forward speed the mean of the force is the added resistance (and the drift to the side) at that speed. From
+    several sets Q is linear between their speeds; in large motions it follows the mean speed through the water, so added
+    resistance needs no load of its own. :class:`WaveDriftDamping`, another account of the dependence on speed, is refused then.
     A steady start holds the first-order motion and the mean offset; the slow motion builds up from there.
 
     The force belongs to first-order excitation and linear restoring. A nonlinear Froude-Krylov force holds part of it.
@@ -76,7 +83,7 @@ class SlowDrift:
 
     def __init__(
         self,
-        hydro: xr.Dataset,
+        hydro: xr.Dataset | Sequence[xr.Dataset],
         approximation: str = "newman-arithmetic",
         *,
         position: str = "instantaneous",
@@ -87,30 +94,39 @@ class SlowDrift:
         if approximation not in known:
             raise InputError(f"SlowDrift: approximation, one of {', '.join(known)}, expected, {approximation!r} found.")
         check_position(position, "SlowDrift")
-        if not isinstance(hydro, xr.Dataset):
-            raise InputError(f"SlowDrift: a hydrodynamic data set (xarray.Dataset) expected, {type(hydro).__name__} found.")
         if not 0.0 <= tolerance < 1.0:
             raise InputError(f"SlowDrift: a tolerance from 0 to below 1 expected, {tolerance!r} found.")
-        full = approximation == "full"
-        table = (
-            qtf_table(hydro, tolerance=tolerance) if full else drift_table(hydro, approximation, variable, tolerance=tolerance)
-        )
-        for key, value in (("hydro", hydro), ("approximation", approximation), ("position", position), ("name", "slow_drift")):
+        sets = by_speed([hydro] if isinstance(hydro, xr.Dataset) or not isinstance(hydro, Sequence) else hydro, "SlowDrift")
+        tables = [
+            qtf_table(one, tolerance=tolerance)
+            if approximation == "full"
+            else drift_table(one, approximation, variable, tolerance=tolerance)
+            for one in sets
+        ]
+        force = ForceInSea(tables, "SlowDrift", np.array([speed_of(one) for one in sets]))
+        refuse_other_headings(force)
+        for key, value in (("hydro", sets[0]), ("approximation", approximation), ("position", position), ("_force", force)):
             object.__setattr__(self, key, value)
-        object.__setattr__(self, "_force", ForceInSea(table, "SlowDrift"))
+        object.__setattr__(self, "name", "slow_drift")
 
     @property
     def covers(self) -> frozenset[str]:
-        """Effects that this load accounts for."""
-        return frozenset({SLOW_DRIFT})
+        """Effects that this load accounts for; with data at several speeds that of speed on the drift is one."""
+        return frozenset({SLOW_DRIFT} if len(self._force.speeds) == 1 else {SLOW_DRIFT, WAVE_DRIFT_DAMPING})
 
     @property
     def dofs(self) -> tuple[str, ...]:
         """Components that the data hold."""
-        return tuple(name for name, yes in zip(DOFS, self._force.table.known, strict=True) if yes)
+        return tuple(name for name, yes in zip(DOFS, self._force.known, strict=True) if yes)
 
     def qtf(
-        self, omega_1: ArrayLike, omega_2: ArrayLike, direction_1: ArrayLike, direction_2: ArrayLike | None = None
+        self,
+        omega_1: ArrayLike,
+        omega_2: ArrayLike,
+        direction_1: ArrayLike,
+        direction_2: ArrayLike | None = None,
+        *,
+        speed: float | None = None,
     ) -> ComplexArray:
         """Return the quadratic transfer function (n, 6) of pairs of waves as this load has it, from the definition.
 
@@ -120,18 +136,20 @@ class SlowDrift:
             rad/s, within the data.
         direction_1, direction_2 : float or (n,) array
             Directions that the waves travel to, relative to the bow, rad; one for both by default.
+        speed : float, optional
+            m/s, within the data of several speeds; the lowest of them by default.
         """
-        return self._force.qtf(omega_1, omega_2, direction_1, direction_2)
+        return self._force.qtf(omega_1, omega_2, direction_1, direction_2, speed)
 
-    def form(self, sea: Sea, heading: float = 0.0) -> QuadraticForm:
-        """Return the force of a sea on a vessel at a heading (rad) as products of sums over its components.
+    def form(self, sea: Sea, heading: float = 0.0, speed: float | None = None) -> QuadraticForm:
+        """Return the force of a sea on a vessel at a heading (rad) and speed (m/s) as products of sums over its components.
 
         Raises
         ------
         InputError
-            A sea or a heading that the data do not cover.
+            A sea, a heading or a speed that the data do not cover.
         """
-        return self._force.form(sea, heading)
+        return self._force.form(sea, heading, speed)
 
     def series(self, sea: Sea, t: ArrayLike, *, heading: float = 0.0, speed: float = 0.0) -> Array:
         """Return the force on a vessel on a steady course that is at the origin of the sea at t = 0.
@@ -153,11 +171,15 @@ class SlowDrift:
 
     def bind(self, surroundings: Surroundings) -> Terms:
         """Return the arrays for the time loop."""
-        own = float(self.hydro.attrs.get("speed", 0.0))
-        if abs(surroundings.speed - own) > 1e-6 * max(1.0, abs(own)):
+        own, at = self._force.speeds, surroundings.speed
+        if len(own) > 1 and not own[0] - 1e-9 <= at <= own[-1] + 1e-9:
+            raise InputError(
+                f"SlowDrift: a vessel's speed within the data ({own[0]:.4g}..{own[-1]:.4g} m/s) expected, {at:.4g} m/s found."
+            )
+        if len(own) == 1 and abs(at - own[0]) > 1e-6 * max(1.0, abs(own[0])):
             warnings.warn(
-                f"SlowDrift: the drift holds for {own:.4g} m/s, the vessel sails at {surroundings.speed:.4g} m/s; its "
-                "dependence on speed is left out (at low speed WaveDriftDamping accounts for it).",
+                f"SlowDrift: the drift holds for {own[0]:.4g} m/s, the vessel sails at {at:.4g} m/s; its dependence on "
+                "speed is left out. Give data at several speeds (mean_drift with speed=), or WaveDriftDamping at low speed.",
                 OgilvieWarning,
                 stacklevel=2,
             )

@@ -68,7 +68,7 @@ class SumFrequency:
         if not isinstance(hydro, xr.Dataset):
             raise InputError(f"SumFrequency: a hydrodynamic data set (xarray.Dataset) expected, {type(hydro).__name__} found.")
         check_position(position, "SumFrequency")
-        force = ForceInSea(qtf_table(hydro, "qtf_sum", tolerance=tolerance), "SumFrequency")
+        force = ForceInSea([qtf_table(hydro, "qtf_sum", tolerance=tolerance)], "SumFrequency")
         for key, value in (("hydro", hydro), ("position", position), ("_force", force), ("name", "sum_frequency")):
             object.__setattr__(self, key, value)
 

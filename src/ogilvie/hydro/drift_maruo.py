@@ -1,0 +1,133 @@
+"""Mean drift and energy from the waves far away at forward speed, in deep water (kernel).
+
+In axes that advance with U a wave exp(i(omega_e t - q . x)) has the frequency Omega = omega_e + U q_x in the water at rest, and
+Omega^2 = g q. With q = q (cos, sin) theta and tau = U omega_e/g that is two waves for each direction,
+
+    Omega = 2 omega_e/(1 +- s),   q = Omega^2/g,   s = (1 - 4 tau cos theta)^(1/2) real:
+
+the lower sign, Omega < 0 where cos theta < 0, belongs to short waves. With the Kochin function K of :func:`kochin` they carry
+away the wave action
+
+    dN = (rho/8 pi) sgn(Omega) q |K|^2/s dtheta,
+
+and with the action the energy omega_e N and the momentum q N. The incident wave (q_0, Omega_0) loses the action
+N_0 = -(rho g/2 Omega_0) Re K(q_0) per metre of amplitude. So with P the power that external damping takes
+
+    0 = omega_e (N - N_0) + P,
+    F = q_0 N_0 - int q dN = int (q_0 - q) dN + q_0 P/omega_e,
+
+the second form that of Maruo (1960), in which the balance of energy has been used; so it stays as a check. See
+docs/theory/drift.md.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ogilvie.hydro.bem_case import resolved_wavenumber
+from ogilvie.hydro.drift_far import FarField
+from ogilvie.hydro.drift_first import FirstOrder
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+def far_field_at_speed(first: FirstOrder) -> FarField:
+    """Return the mean drift in surge and sway, each direction alone; NaN in the other dofs and in finite depth.
+
+    Notes
+    -----
+    Waves shorter than the panels resolve are left out: beyond, what is added falls as q^(-3/2).
+    """
+    w, n_b = first.wave, len(first.wave.directions)
+    force = np.zeros((n_b, n_b, 6), dtype=complex)
+    force[..., 2:] = np.nan
+    if np.isfinite(w.depth):
+        force[:] = np.nan
+        return FarField(force, np.full(n_b, np.nan), np.full(n_b, np.nan))
+    qx, qy, dN = radiated_action(first)
+    P = np.real(np.diag(first.dissipated))
+    q_0 = w.k * np.stack([np.cos(w.directions), np.sin(w.directions)])
+    lost = -w.rho * w.g / (2.0 * w.omega) * np.real(np.diag(kochin(first, *q_0)))
+    total = dN.sum(axis=1)
+    here = np.arange(n_b)
+    for i, q in enumerate((qx, qy)):
+        force[here, here, i] = q_0[i] * (total + P / w.omega_e) - dN @ q
+    return FarField(force, w.omega_e * total + P, w.omega_e * lost)
+
+
+def radiated_action(first: FirstOrder) -> tuple[Array, Array, Array]:
+    """Return wave vectors qx, qy (n,), rad/m, and the action dN (n_b, n) that each carries away per second, J/m2."""
+    w = first.wave
+    parts = [_waves(w.omega_e, w.speed, w.g, sign, _limit(first), _radius(first)) for sign in (1.0, -1.0)]
+    Omega, qx, qy, weight = (np.concatenate([part[i] for part in parts]) for i in range(4))
+    strength = kochin(first, qx, qy)
+    return qx, qy, w.rho / (8.0 * np.pi) * np.sign(Omega) * np.hypot(qx, qy) * np.abs(strength) ** 2 * weight
+
+
+def kochin(first: FirstOrder, qx: Array, qy: Array) -> Complex:
+    """Return K (n_b, n) of the scattered and radiated waves at wave vectors (n,), rad/m.
+
+    Notes
+    -----
+    K = int (phi_n E - phi E_n) dS over the hull, E = exp(qz + i q . x), by Green's theorem. An integral along the waterline of
+    the order of U, which the exact free-surface condition of speed would add, is left out as it is from Tuck's theorem: the
+    potentials do not obey that condition. The sources inside the hull would give the same at rest, but not at speed, where q is
+    not the wavenumber of their Green function: the energy would be out of balance by up to a factor of two.
+    """
+    panels = first.hull.panels
+    points, weights = panels.quadrature
+    copies, n = len(panels.images), panels.hull.normals
+    phi = first.scattered_potential.reshape(len(first.motion), copies, -1)
+    K = np.zeros((len(phi), len(qx)), dtype=complex)
+    for c, image in enumerate(panels.images):
+        for i in range(points.shape[1]):
+            x, normal, d = points[:, i] * image, n * image, weights[:, i]
+            E = np.exp(np.outer(x[:, 2], np.hypot(qx, qy)) + 1j * (np.outer(x[:, 0], qx) + np.outer(x[:, 1], qy)))
+            K += (first.scattered_flow(x, normal) * d) @ E
+            for part, factor in zip(normal.T, (1j * qx, 1j * qy, np.hypot(qx, qy)), strict=True):
+                K -= (phi[:, c] * d * part) @ E * factor
+    return K
+
+
+def _waves(omega_e: float, speed: float, g: float, sign: float, limit: float, radius: float) -> tuple[Array, ...]:
+    """Return Omega, qx, qy and dtheta/s of the waves of one sign of the root, up to a wavenumber."""
+    tau = abs(speed) * omega_e / g
+    least = 2.0 * omega_e / np.sqrt(g * limit)  # 1 + s or |1 - s| at the limit
+    first = np.arccos(min(1.0, 0.25 / tau)) if tau > 0.0 else 0.0
+    if sign > 0.0:
+        ranges = [(first, np.pi)]
+    elif tau == 0.0:
+        ranges = []
+    else:
+        ranges = [(first, _angle(1.0 - least, tau)), (_angle(1.0 + least, tau), np.pi)]
+    found = []
+    for start, end in ranges:
+        if end > start:
+            t, dt = np.polynomial.legendre.leggauss(int(np.ceil(4.0 * limit * radius + 64.0)))
+            u, du = 0.5 * (t + 1.0), 0.5 * dt
+            found.append((start + (end - start) * u**2, 2.0 * (end - start) * u * du))
+    if not found:
+        return (np.zeros(0),) * 4
+    theta, d = (np.concatenate(part) for part in zip(*found, strict=True))
+    s = np.sqrt(np.maximum(1.0 - 4.0 * tau * np.cos(theta), 0.0))
+    Omega = 2.0 * omega_e / (1.0 + sign * s)
+    q = Omega**2 / g
+    keep = q <= limit * (1.0 + 1e-9)
+    along = np.where(speed < 0.0, -1.0, 1.0) * q * np.cos(theta)
+    parts = Omega, along, q * np.sin(theta), d / s
+    Omega, qx, qy, weight = (part[keep] for part in parts)
+    return np.tile(Omega, 2), np.tile(qx, 2), np.concatenate([qy, -qy]), np.tile(weight, 2)
+
+
+def _angle(s: float, tau: float) -> float:
+    """Return the angle (0..pi) at which the root is s >= 0; 0 or pi where no angle has it."""
+    return float(np.arccos(np.clip((1.0 - max(s, 0.0) ** 2) / (4.0 * tau), -1.0, 1.0)))
+
+
+def _limit(first: FirstOrder) -> float:
+    longest = 4.0 * first.wave.omega_e**2 / first.wave.g  # where the two waves meet
+    return max(resolved_wavenumber(first.hull.panels.hull), longest, first.wave.k)
+
+
+def _radius(first: FirstOrder) -> float:
+    return float(np.linalg.norm(first.hull.source_points[:, :2], axis=1).max())
