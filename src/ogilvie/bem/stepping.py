@@ -34,7 +34,7 @@ class Response:
     Parameters
     ----------
     K : (n_t, k, k) array
-        inputs.T z'(t), symmetric.
+        inputs.T z'(t), symmetric; (n_t, n_outputs, k) and outputs.T z'(t) where other outputs were asked for.
     least : float
         Lowest eigenvalue of the stiffness over the highest, before it was cut off at zero.
     energy : (n_t, k) array
@@ -47,7 +47,14 @@ class Response:
 
 
 def impulse_response(
-    stiffness: Array, dampers: Array, inputs: Array, *, dt: float, count: int, late: LateDamping | None = None
+    stiffness: Array,
+    dampers: Array,
+    inputs: Array,
+    *,
+    dt: float,
+    count: int,
+    late: LateDamping | None = None,
+    outputs: Array | None = None,
 ) -> Response:
     """Return inputs.T z'(t) at t = 0, dt, ... of z'' + dampers dampers.T z' + stiffness z = inputs delta(t).
 
@@ -62,6 +69,8 @@ def impulse_response(
         Number of times.
     late : LateDamping, optional
         Further damping that comes into force by and by.
+    outputs : (n, n_outputs) array, optional
+        What to look at instead of the inputs.
 
     Raises
     ------
@@ -101,7 +110,8 @@ def impulse_response(
     move = RationalStep(W, turn.T @ dampers, dt / parts)
     b = np.concatenate([np.zeros_like(inputs), turn.T @ inputs])
     shape = turn.T @ (np.zeros((len(W), 0)) if late is None else late.shape)
-    path = _Path(b, b.copy())
+    seen = b if outputs is None else np.concatenate([np.zeros_like(outputs), turn.T @ outputs])
+    path = _Path(seen, b.copy())
     if late is not None:
         for i in range(min(int(np.ceil(late.complete / dt)), count - 1)):
             for j in range(parts):
@@ -117,7 +127,9 @@ def impulse_response(
 
     path.go_on(step, count - len(path.K))
     K = np.array(path.K)
-    return Response(0.5 * (K + K.transpose(0, 2, 1)), least, np.array(path.energy) / path.energy[0])
+    if outputs is None:
+        K = 0.5 * (K + K.transpose(0, 2, 1))
+    return Response(K, least, np.array(path.energy) / path.energy[0])
 
 
 def _damped(x: Array, shape: Array, loss: Array) -> Array:
@@ -128,7 +140,7 @@ def _damped(x: Array, shape: Array, loss: Array) -> Array:
 
 
 class _Path:
-    """State x with what is recorded of it: b.T x and |x|^2 at each time."""
+    """State x with what is seen of it: b.T x, and |x|^2, at each time."""
 
     def __init__(self, b: Array, x: Array) -> None:
         self.b, self.x = b, x
@@ -148,12 +160,12 @@ class _Path:
                 self.record()
             return
         M = step(np.eye(len(self.x)))
-        k, small = self.b.shape[1], int(np.sqrt(count)) + 1
+        k, seen, small = self.x.shape[1], self.b.shape[1], int(np.sqrt(count)) + 1
         large = -(-(count + 1) // small)
-        left = _powers(M.T, self.b, small).transpose(0, 2, 1).reshape(small * k, -1)
+        left = _powers(M.T, self.b, small).transpose(0, 2, 1).reshape(small * seen, -1)
         right = _powers(np.linalg.matrix_power(M, small), self.x, large)
-        K = (left @ right.transpose(1, 0, 2).reshape(len(M), large * k)).reshape(small, k, large, k)
-        self.K += list(K.transpose(2, 0, 1, 3).reshape(-1, k, k)[1 : count + 1])
+        K = (left @ right.transpose(1, 0, 2).reshape(len(M), large * k)).reshape(small, seen, large, k)
+        self.K += list(K.transpose(2, 0, 1, 3).reshape(-1, seen, k)[1 : count + 1])
         self.energy += list(np.repeat(np.sum(right**2, axis=1), small, axis=0)[1 : count + 1])
 
 
