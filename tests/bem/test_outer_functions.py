@@ -67,6 +67,11 @@ def test_values_and_slopes_at_the_surface(m):
     assert np.allclose(slope, (high - low) / (2 * h), atol=1e-5)
 
 
-def test_points_outside_the_hemisphere_are_refused():
-    with pytest.raises(InputError, match=r"within 0\.\.1"):
-        depth_functions(0, np.array([-0.1, 0.5]), 3)
+@pytest.mark.parametrize("x", [np.array([-0.1, 0.5]), np.array([0.5, 1.01]), np.array([np.nan]), np.array(0.5)])
+def test_points_outside_the_hemisphere_are_refused(x):
+    with pytest.raises(InputError, match="expected"):
+        depth_functions(0, x, 3)
+
+
+def test_rounding_at_the_ends_is_no_error():
+    assert np.allclose(depth_functions(1, np.array([-1e-12, 1 + 1e-12]), 3), depth_functions(1, np.array([0.0, 1.0]), 3))

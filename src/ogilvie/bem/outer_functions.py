@@ -10,6 +10,8 @@ from ogilvie.errors import InputError
 
 Array = NDArray[Any]
 
+_ROUNDING = 1e-9  # of points on the hemisphere
+
 
 def depth_functions(m: int, x: Array, count: int) -> Array:
     """Return the first depth functions y_mj of azimuthal mode m: (1 - x^2)^(m/2) times polynomials of degree j.
@@ -44,8 +46,11 @@ def depth_functions(m: int, x: Array, count: int) -> Array:
            [-1.732051,  0.      ,  1.732051]])
     """
     x = np.asarray(x, dtype=float)
-    if m < 0 or count < 1 or x.ndim != 1 or np.any(x < 0.0) or np.any(x > 1.0):
-        raise InputError(f"depth_functions: m >= 0, count >= 1 and x within 0..1 expected, m = {m}, count = {count} found.")
+    if m < 0 or count < 1 or x.ndim != 1:
+        raise InputError(f"depth_functions: m >= 0, count >= 1 and x (n,) expected, {m}, {count} and {x.shape} found.")
+    if not np.all(np.abs(x - 0.5) <= 0.5 + _ROUNDING):
+        raise InputError(f"depth_functions: x = -z / Rc within 0..1 expected, {x.min():g} to {x.max():g} found.")
+    x = np.clip(x, 0.0, 1.0)
     a, root_b, first = _recurrence(m, count)
     y = np.empty((count, len(x)))
     y[0] = first * (1.0 - x * x) ** (m / 2)
