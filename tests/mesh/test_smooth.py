@@ -6,6 +6,7 @@ import pytest
 from ogilvie.errors import InputError
 from ogilvie.mesh import shapes
 from ogilvie.mesh.chebyshev import chebyshev_points, differentiation, interpolation
+from ogilvie.mesh.panels import PanelMesh
 from ogilvie.mesh.smooth import SmoothSurface
 
 ALL = {
@@ -60,6 +61,35 @@ def test_surface_follows_every_move_of_the_hull():
     assert whole.surface.volume == pytest.approx(8.0 * mesh.volume, rel=1e-12)
     assert moved.full().with_symmetry("xz").surface.volume == pytest.approx(moved.surface.volume, rel=1e-12)
     assert mesh.with_lid(shapes.waterplane_lid(mesh)).surface is mesh.surface
+
+
+def test_corners_on_the_surface_of_lofts_follow_every_move():
+    mesh = shapes.from_particulars(length=100.0, beam=15.0, draught=5.0, cb=0.6, panels=400, above_water=True)
+    assert mesh.bounds[1, 2] > 1.0
+    wet = mesh.immersed()
+    assert wet.surface is mesh.surface  # cut where the surface ends
+    assert mesh.immersed(draught=4.0).surface is None
+    assert mesh.surface.bounds[1, 2] == pytest.approx(0.0, abs=1e-9)
+    off = np.abs(wet.surface.bounds - [[wet.bounds[0, 0], 0.0, -5.0], [wet.bounds[1, 0], 7.5, 0.0]])
+    assert off.max() < 0.02
+    moved = wet.translated((3.0, 1.0, 0.0)).scaled(2.0)
+    assert moved.symmetry == "none"
+    assert len(moved.surface.faces) == 2 * len(wet.surface.faces)
+    np.testing.assert_allclose(moved.surface.bounds[1], 2.0 * (wet.surface.bounds[1] + [3.0, 1.0, 0.0]))
+    assert len(wet.full().with_symmetry("xz").surface.faces) == len(wet.surface.faces)
+    assert moved.surface.half("xz") is None
+    image = moved.mirrored("xz").surface
+    np.testing.assert_allclose(image.vertices, moved.surface.vertices * [1.0, -1.0, 1.0])
+    assert image.faces[0].tolist() != moved.surface.faces[0].tolist()
+
+
+def test_lofted_corners_enclose_less_than_the_panels_that_keep_the_volume():
+    mesh = shapes.s175(panels=600)
+    corners = PanelMesh(mesh.surface.vertices, mesh.surface.faces, symmetry="xz")
+    fine = shapes.s175(panels=2400)
+    assert corners.volume < mesh.volume
+    assert PanelMesh(fine.surface.vertices, fine.surface.faces, symmetry="xz").volume > corners.volume
+    np.testing.assert_allclose(corners.volume, mesh.volume, rtol=0.01)
 
 
 def test_surface_is_left_out_where_the_hull_is_cut_or_turned_over():

@@ -10,6 +10,7 @@ from ogilvie.bem.flat_hull import flat_panels, require_closed
 from ogilvie.bem.hull_patches import hull_panels
 from ogilvie.errors import InputError
 from ogilvie.mesh.panels import PanelMesh
+from ogilvie.mesh.smooth import SmoothSurface, SurfaceCorners
 
 Array = NDArray[np.float64]
 Representation = Literal["auto", "smooth", "panels"]
@@ -53,7 +54,7 @@ def represented(hull: PanelMesh, wish: Representation, *, size: float, q: int) -
     """
     if wish not in ("auto", "smooth", "panels"):
         raise InputError(f"surface: 'auto', 'smooth' or 'panels' expected, {wish!r} found.")
-    if hull.surface is not None and wish != "panels":
+    if isinstance(hull.surface, SmoothSurface) and wish != "panels":
         return hull_panels(hull.surface, planes=hull.planes, size=size, q=q), hull, "smooth surface of the hull"
     require_closed(hull)
     flat = flat_panels(hull, q=q), hull, f"{hull.n_faces} flat panels as they are"
@@ -72,11 +73,17 @@ def represented(hull: PanelMesh, wish: Representation, *, size: float, q: int) -
     return fit.panels, half, told
 
 
+def _on_surface(hull: PanelMesh) -> PanelMesh:
+    """Return the hull with the corners of its panels on its smooth surface, where that is known."""
+    corners = hull.surface
+    return PanelMesh(corners.vertices, corners.faces, symmetry="xz") if isinstance(corners, SurfaceCorners) else hull
+
+
 def _best_fit(hull: PanelMesh, size: float, q: int) -> FittedHull:
     """Return the first good fit with panels of about that size, else the one with the size itself."""
-    fits = []
+    fits, corners = [], _on_surface(hull)
     for factor in _SIZES:
-        fits.append(fitted_panels(hull, size=factor * size, q=q))
+        fits.append(fitted_panels(corners, size=factor * size, q=q))
         if _is_good(fits[-1], hull):
             return fits[-1]
     return fits[0]

@@ -13,6 +13,7 @@ from ogilvie.mesh.girthlines import chine_rows, side_grids
 from ogilvie.mesh.panels import PanelMesh
 from ogilvie.mesh.patches import oriented, panel_mesh
 from ogilvie.mesh.sections import Lines, Station, lofted
+from ogilvie.mesh.smooth import SurfaceCorners
 from ogilvie.mesh.wetted import Reach, reaches
 
 Array = NDArray[np.float64]
@@ -73,7 +74,8 @@ def from_offsets(
     centreline below the water is a bulb, the stem above it ends there.
 
     Vertices are moved off that surface, along its normal, by about k h^2 / 12 (curvature k, side h of a panel), so that the
-    flat panels enclose its volume; keel, waterline, transom and chines keep their places.
+    flat panels enclose its volume; keel, waterline, transom and chines keep their places. `PanelMesh.surface` keeps where they
+    were on it.
 
     Examples
     --------
@@ -138,12 +140,13 @@ def panelled(
     length = sum(r.length for side in sides for r in side)
     girth = sum(float(abs(np.trapezoid(r.girth, r.x))) for side in sides for r in side) / length
     grids, n = _fitting(lines, sides, noses, panels, girth / length)
+    exact = _mesh(grids.sheets(), name)
     grids = _with_volume(grids, volume, fixed=list(chine_rows(lines, n).values()))
     sheets = grids.sheets()
     if above_water:
         for side, wet, nose, out in zip(sides, (grids.aft, grids.fore), noses, (-1.0, 1.0), strict=True):
             sheets += freeboard_sheets(side, wet, nose=nose, height=girth / n, out=out)
-    return _mesh(sheets, name)
+    return replace(_mesh(sheets, name), surface=SurfaceCorners(exact.vertices, exact.faces))
 
 
 def _fitting(

@@ -12,7 +12,7 @@ from ogilvie.errors import InputError
 from ogilvie.frames import rotation_matrix
 from ogilvie.mesh.clip import clip_below
 from ogilvie.mesh.integrals import MIRROR, panel_geometry, reversed_faces, surface_moments
-from ogilvie.mesh.smooth import SmoothSurface
+from ogilvie.mesh.smooth import Surface
 from ogilvie.mesh.topology import half, with_mirror_image
 
 Array = NDArray[np.float64]
@@ -43,9 +43,9 @@ class PanelMesh:
     name : str
     lid : PanelMesh, optional
         Interior panels of the waterplane (z = 0) against irregular frequencies; no part of the hull's geometry.
-    surface : SmoothSurface, optional
-        The smooth hull that the panels stand for, where it is known; it moves with them, and is left out where panels are cut
-        or turned over.
+    surface : SmoothSurface or SurfaceCorners, optional
+        The smooth hull below the water that the panels stand for, where it is known; it moves with them, and is left out where
+        panels are cut elsewhere than at its waterline, or turned over.
 
     Notes
     -----
@@ -69,7 +69,7 @@ class PanelMesh:
     symmetry: Symmetry = "none"
     name: str = "hull"
     lid: "PanelMesh | None" = None
-    surface: SmoothSurface | None = None
+    surface: Surface | None = None
 
     def __post_init__(self) -> None:
         vertices = np.array(self.vertices, dtype=float)
@@ -310,10 +310,16 @@ class PanelMesh:
                 f"immersed: panels of {self.name!r} below z = 0 expected, lowest z {low:.6g} m found; give a draught."
             )
         keeps_lid = mesh.lid is not None and np.abs(mesh.lid.bounds[:, 2]).max() <= mesh.tolerance
-        surface = mesh.surface if mesh.bounds[1, 2] <= mesh.tolerance else None  # nothing is cut
+        surface = mesh.surface if mesh._cut_at_waterline_of_surface() else None
         return replace(mesh, vertices=vertices, faces=faces, lid=mesh.lid if keeps_lid else None, surface=surface)
 
     # ---- helpers
+
+    def _cut_at_waterline_of_surface(self) -> bool:
+        """Return whether z = 0 cuts nothing off the hull's smooth surface."""
+        if self.surface is None or self.bounds[1, 2] <= self.tolerance:
+            return True
+        return abs(float(self.surface.bounds[1, 2])) <= 1e2 * self.tolerance
 
     def _moved(self, transform: Callable[[Array], Array]) -> "PanelMesh":
         lid = self.lid._moved(transform) if self.lid is not None else None

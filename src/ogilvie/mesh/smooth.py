@@ -1,4 +1,4 @@
-"""A smooth hull: a few four-sided patches, each a polynomial through its points."""
+"""A smooth hull: a few four-sided patches, each a polynomial through its points; or panels whose corners lie on it."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -9,9 +9,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from ogilvie.errors import InputError
 from ogilvie.mesh.chebyshev import chebyshev_points, differentiation, interpolation
-from ogilvie.mesh.integrals import MIRROR
+from ogilvie.mesh.integrals import MIRROR, reversed_faces
+from ogilvie.mesh.topology import half, with_mirror_image
 
 Array = NDArray[np.float64]
+Faces = NDArray[np.int64]
+Plane = Literal["xz", "yz"]
+
+_NEAR = 1e-6  #: of the extent, corners nearer to a plane of symmetry lie in it
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,15 +82,15 @@ class SmoothSurface:
         """Return the surface with an affine map, that keeps the hand, applied to its points (n, 3)."""
         return SmoothSurface(tuple(transform(p.reshape(-1, 3)).reshape(p.shape) for p in self.patches))
 
-    def mirrored(self, plane: Literal["xz", "yz"]) -> "SmoothSurface":
+    def mirrored(self, plane: Plane) -> "SmoothSurface":
         """Return the mirror image at y = 0 ("xz") or x = 0 ("yz")."""
         return SmoothSurface(tuple((p * MIRROR[plane] + 0.0).swapaxes(0, 1) for p in self.patches))
 
-    def with_mirror_image(self, plane: Literal["xz", "yz"]) -> "SmoothSurface":
+    def with_mirror_image(self, plane: Plane) -> "SmoothSurface":
         """Return the surface and its mirror image at y = 0 ("xz") or x = 0 ("yz") as one."""
         return SmoothSurface(self.patches + self.mirrored(plane).patches)
 
-    def half(self, plane: Literal["xz", "yz"]) -> "SmoothSurface | None":
+    def half(self, plane: Plane) -> "SmoothSurface | None":
         """Return the patches on the positive side of a plane; None where one crosses it."""
         axis = 1 if plane == "xz" else 0
         low, high = (np.array([f(p[..., axis]) for p in self.patches]) for f in (np.min, np.max))
@@ -94,3 +99,48 @@ class SmoothSurface:
             return None
         kept = tuple(p for p, a in zip(self.patches, high, strict=True) if a > near)
         return SmoothSurface(kept) if kept else None
+
+
+@dataclass(frozen=True, eq=False)
+class SurfaceCorners:
+    """A smooth hull known at places: corners of panels that all lie on it, while those of the hull's own panels are off it.
+
+    Parameters
+    ----------
+    vertices : (n, 3) array
+        m.
+    faces : (m, 4) int array
+        As those of a panel mesh.
+    """
+
+    vertices: Array
+    faces: Faces
+
+    @property
+    def bounds(self) -> Array:
+        """Lowest and highest x, y, z (2, 3) of the corners, m."""
+        return np.array([self.vertices.min(axis=0), self.vertices.max(axis=0)])
+
+    def moved(self, transform: Callable[[Array], Array]) -> "SurfaceCorners":
+        """Return the corners after an affine map, that keeps the hand, of points (n, 3)."""
+        return SurfaceCorners(transform(self.vertices), self.faces)
+
+    def mirrored(self, plane: Plane) -> "SurfaceCorners":
+        """Return the mirror image at y = 0 ("xz") or x = 0 ("yz")."""
+        return SurfaceCorners(self.vertices * MIRROR[plane] + 0.0, reversed_faces(self.faces))
+
+    def with_mirror_image(self, plane: Plane) -> "SurfaceCorners":
+        """Return the corners and their mirror images at y = 0 ("xz") or x = 0 ("yz") as one."""
+        near = _NEAR * float(np.ptp(self.vertices, axis=0).max())
+        return SurfaceCorners(*with_mirror_image(self.vertices, self.faces, plane=plane, tolerance=near))
+
+    def half(self, plane: Plane) -> "SurfaceCorners | None":
+        """Return the corners on the positive side of a plane; None where the other side is not their mirror image."""
+        near = _NEAR * float(np.ptp(self.vertices, axis=0).max())
+        try:
+            return SurfaceCorners(*half(self.vertices, self.faces, plane=plane, tolerance=near))
+        except InputError:
+            return None
+
+
+Surface = SmoothSurface | SurfaceCorners
