@@ -45,11 +45,31 @@ def sphere_octant(k, depths, q, outwards=True):
     return out + panels(_sphere_patch((X + Z, centre, Y + Z, Z)), u, u, q, flip=outwards)
 
 
-def annulus(k, radii, q):
-    """Panels of the quarter annulus on z = 0 between the radii, whose sides are those of the octants of both spheres."""
-    u = np.linspace(0.0, 1.0, k + 1)
+def annulus(k, radii, q, jitter=0.0):
+    """Panels of the quarter annulus on z = 0 between the radii, whose sides are those of the octants of both spheres.
+
+    With jitter every corner inside is moved by up to this part of the distance of its neighbours.
+    """
     arcs = [_sphere_patch((X, X + Y, X + Y, X)), _sphere_patch((X + Y, Y, Y, X + Y))]
-    return [p for arc in arcs for p in panels(lambda s, t, arc=arc: arc(s, 0 * t) * t[..., None], u, radii, q, flip=True)]
+    s, t = np.meshgrid(np.linspace(0.0, 2.0, 2 * k + 1), radii, indexing="ij")
+    move = np.random.default_rng(3).uniform(-jitter, jitter, (2, 2 * k - 1, len(radii) - 2))
+    inner = (slice(1, -1), slice(1, -1))
+    if k > 1:
+        move[0, k - 1] = 0.0  # between the arcs
+    s[inner] += move[0] / (2 * k) if k > 1 else 0.0
+    t[inner] += move[1] * 0.5 * np.minimum(np.diff(radii)[1:], np.diff(radii)[:-1])
+    x = 0.5 - 0.5 * np.cos(np.pi * np.arange(q) / (q - 1))
+    a, b = np.meshgrid(x, x, indexing="ij")
+    out = []
+    for i in range(2 * k):
+        for j in range(len(radii) - 1):
+            S, T = (
+                (1 - a) * (1 - b) * z[i, j] + a * (1 - b) * z[i + 1, j] + a * b * z[i + 1, j + 1] + (1 - a) * b * z[i, j + 1]
+                for z in (s, t)
+            )
+            points = arcs[i // k](S - i // k, 0 * S) * T[..., None]
+            out.append(points.transpose(1, 0, 2))
+    return out
 
 
 def graded(n, power=2.0, both=False):
@@ -67,14 +87,14 @@ def mirrored(points, part, plane):
     return np.concatenate([points, other.transpose(0, 2, 1, 3)]), np.concatenate([part, part])
 
 
-def hemisphere_in_hemisphere(*, k=1, depths=2, across=3, control=None, q=7, radius=2.0, symmetry="xz+yz"):
+def hemisphere_in_hemisphere(*, k=1, depths=2, across=3, control=None, q=7, radius=2.0, symmetry="xz+yz", jitter=0.0):
     """Inner domain between the hemispheres of radius 1 and `radius`; panels by number (graded) or by their sides in 0..1."""
     depths = graded(depths) if np.ndim(depths) == 0 else np.asarray(depths)
     across = graded(across, both=True) if np.ndim(across) == 0 else np.asarray(across)
     control = depths if control is None else graded(control) if np.ndim(control) == 0 else np.asarray(control)
     hull = sphere_octant(k, depths, q, outwards=False)
     outer = [radius * p for p in sphere_octant(k, control, q)]
-    free = annulus(k, 1.0 + (radius - 1.0) * across, q)
+    free = annulus(k, 1.0 + (radius - 1.0) * across, q, jitter)
     points = np.array(hull + free + outer)
     part = np.repeat([BODY, FREE, CONTROL], [len(hull), len(free), len(outer)])
     if symmetry != "xz+yz":
