@@ -48,7 +48,7 @@ def test_volume_of_lofted_ships_is_that_of_their_surface_at_any_number_of_panels
     """Panels of lofts are moved off the surface to keep its volume; the fit goes through where they were on it."""
     for panels in (500, 1500):
         hull = shapes.s175(panels=panels)
-        assert inspect_inner(inner_mesh(hull)).displacement == pytest.approx(shapes.s175(panels=2000).volume, rel=1.2e-3)
+        assert inspect_inner(inner_mesh(hull)).displacement == pytest.approx(shapes.s175(panels=2000).volume, rel=2e-3)
 
 
 @pytest.mark.parametrize("name", FILES)
@@ -56,7 +56,7 @@ def test_published_ships_are_smooth_and_closed(shared_data, name):
     hull = og.load_mesh(shared_data / FILES[name])
     mesh = inner_mesh(hull)
     assert mesh.notes[0].startswith("smooth surface fitted")
-    check(mesh, hull, volume=0.002, nodes=1800)
+    check(mesh, hull, volume=0.004, nodes=2200)
 
 
 @pytest.mark.parametrize(("name", "rms"), [("tanker", 0.0015), ("fpso", 0.0035), ("kvlcc2", 0.0015), ("dtmb5415", 0.0015)])

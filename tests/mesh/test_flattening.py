@@ -7,7 +7,7 @@ from ogilvie.errors import InputError
 from ogilvie.mesh import shapes
 from ogilvie.mesh.fitting import fitted
 from ogilvie.mesh.flat_ends import flat_end
-from ogilvie.mesh.flattening import conforming, flattened
+from ogilvie.mesh.flattening import _harmonic, conforming, flattened
 from ogilvie.mesh.panels import PanelMesh
 
 SHIPS = {
@@ -41,17 +41,25 @@ def test_borders_are_keel_profiles_and_waterline(flat):
     assert np.all(np.diff(x[flat.side == 3][np.argsort(flat.uv[flat.side == 3, 0])]) > -1e-9)
 
 
-def test_constants_and_linear_places_stay_with_a_flat_sheet():
-    """Mean value coordinates reproduce linear functions: a plane rectangle keeps its coordinates."""
+def test_mean_values_reproduce_linear_functions_of_a_plane_sheet():
+    """Floater (2003), Proposition 1: inner places are exact where border places are a linear function of a plane sheet."""
+    rng = np.random.default_rng(3)
     n, m = 9, 7
-    s, t = np.meshgrid(np.linspace(0.0, 1.0, n) ** 1.3, np.linspace(0.0, 1.0, m), indexing="ij")
-    v = np.stack([4.0 * s, 0.0 * s, t - 1.0], axis=-1).reshape(-1, 3)
-    tilted = v @ np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.5, 1.0]])  # y = (z + 1) / 2 - 1/2: keel not at y = 0
-    tilted[:, 1] += 0.5
     i = np.arange(n * m).reshape(n, m)
-    faces = np.stack([i[:-1, :-1], i[:-1, 1:], i[1:, 1:], i[1:, :-1]], axis=-1).reshape(-1, 4)
-    with pytest.raises(InputError, match="border"):
-        flattened(PanelMesh(tilted, faces, symmetry="xz"))  # its ends are open
+    place = np.stack(np.meshgrid(np.linspace(0.0, 1.0, n), np.linspace(0.0, 1.0, m), indexing="ij"), axis=-1)
+    place[1:-1, 1:-1] += rng.uniform(-0.03, 0.03, (n - 2, m - 2, 2))
+    uv = place.reshape(-1, 2)
+    plane = uv @ np.array([[4.0, 1.0, 0.3], [0.5, -2.0, 1.0]])
+    tri = np.concatenate(
+        [
+            np.stack(t, axis=-1).reshape(-1, 3)
+            for t in ((i[:-1, :-1], i[1:, :-1], i[1:, 1:]), (i[:-1, :-1], i[1:, 1:], i[:-1, 1:]))
+        ]
+    )
+    inner = i[1:-1, 1:-1].ravel()
+    known = uv.copy()
+    known[inner] = 0.0
+    np.testing.assert_allclose(_harmonic(plane, tri, known, inner), uv[inner], atol=1e-12)
 
 
 def test_hanging_vertices_become_corners():

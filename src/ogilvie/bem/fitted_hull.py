@@ -16,6 +16,7 @@ Array = NDArray[np.float64]
 _ENDS = 0.3  #: slope of the division along the ship at its ends: panels there are about a third of the mean
 _MORE = 1.1  #: times as many panels as equal ones of the given size
 _TURN = 0.15  #: of the panels, as many as go to a turn by 180 deg
+_STEEP = 1.5  #: slope of the edge of a flat end up to which panels stand upright in it
 _LEAST = (8, 3)  #: panels along and across
 
 
@@ -61,8 +62,9 @@ def fitted_panels(hull: PanelMesh, *, size: float, q: int) -> FittedHull:
 
     Notes
     -----
-    Panels get smaller towards waterline (as 1/n^2), stem and stern. A flat transom or bow is filled with panels of three
-    sides, from its edge to where centreline and waterline meet. Other knuckles are rounded off within a span of the splines.
+    Panels get smaller towards waterline (as 1/n^2), stem and stern. A shallow transom is filled with upright panels, another
+    flat end with panels of three sides, from its edge to where centreline and waterline meet. Other knuckles are rounded off
+    within a span of the splines.
 
     Examples
     --------
@@ -88,11 +90,18 @@ def fitted_panels(hull: PanelMesh, *, size: float, q: int) -> FittedHull:
 
 
 def _fan(edge: Array, size: float) -> Array:
-    """Return panels that fill a flat end from its edge (n, q, 3), keel to waterline, to the top of its centreline."""
-    q, top = edge.shape[1], edge[-1, -1]
-    keel = edge[0, 0]
-    middle = np.array([top[0], 0.0, 0.0])
-    w = places(divisions(max(1, round(float(max(top[1], -keel[2])) / size)), start=1.0, end=1.0), q)  # (m, q)
+    """Return panels that fill a flat end from its edge (n, q, 3), keel to waterline.
+
+    They run up to the waterline where the edge is nowhere steep, else to the place where waterline and centreline meet.
+    """
+    q, top, keel = edge.shape[1], edge[-1, -1], edge[0, 0]
+    step = np.diff(edge, axis=1)
+    shallow = bool(np.all(step[..., 1] > 0.0) and np.all(np.abs(step[..., 2]) < _STEEP * step[..., 1]))
+    middle = np.stack([np.full(edge.shape[:2], top[0]), edge[..., 1] * shallow, np.zeros(edge.shape[:2])], axis=-1)
+    middle = middle[None, :, None]
+    w = places(
+        divisions(max(1, round(float(-keel[2] if shallow else max(top[1], -keel[2])) / size)), start=1.0, end=1.0), q
+    )  # (m, q)
     fan = (1.0 - w)[:, None, :, None, None] * edge[None, :, None] + w[:, None, :, None, None] * middle  # (m, n, q, q, 3)
     return np.asarray(fan.reshape(-1, q, q, 3))
 

@@ -13,7 +13,8 @@ _DEGREE = 3
 _SPANS = (0.45, 0.6)  #: spans of the splines for each row of vertices, along and across
 _STIFF = 1e-4  #: weight of squared second differences of the coefficients against squared distances
 _ON_BORDER = 3.0  #: weight of vertices on keel, profiles and waterline
-_POSITIVE = 5  #: solutions in which coefficients of y that came out negative are held at zero
+_ONE_SIDED = 5  #: solutions in which coefficients that came out on the wrong side of a plane are held in it
+_BETWEEN = 0.05  #: weight of the middles between vertices, which keep the surface from swinging there
 _ROUNDS = 4  #: corrections of the vertices' places on the sheet
 
 
@@ -54,8 +55,10 @@ def fitted(flat: Flattened) -> Sheet:
 
     Notes
     -----
-    Least squares, with a small penalty on second differences of the coefficients. Keel and profiles lie in y = 0 and the
-    waterline in z = 0 exactly: their coefficients there are zero; no coefficient of y is negative. After each fit, vertices
+    Least squares of the distances of vertices and, with little weight, of the middles between neighbours, with a small
+    penalty on second differences of the coefficients. Keel and profiles lie in y = 0 and the
+    waterline in z = 0 exactly: their coefficients there are zero; no coefficient of y is
+    negative, none of z positive. After each fit, vertices
     move on the sheet to the place nearest to them (Gauss-Newton), so that in the end distances count, not places. Knots are
     where vertices are many; three of them where the waterline has a corner, so that the surface may have one.
 
@@ -102,7 +105,10 @@ def _rows(knots: Array, t: Array, *, derivative: int = 0) -> Array:
 
 
 def _least_squares(flat: Flattened, knots: tuple[Array, Array], weight: Array) -> Sheet:
-    U, V = (_rows(k, t) for k, t in zip(knots, flat.uv.T, strict=True))
+    ends = np.unique(np.sort(flat.triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1), axis=0)
+    uv, places = (np.vstack([a, a[ends].mean(axis=1)]) for a in (flat.uv, flat.vertices))
+    weight = np.r_[weight, _BETWEEN * weight[ends].min(axis=1)]
+    U, V = (_rows(k, t) for k, t in zip(knots, uv.T, strict=True))
     nu, nv = U.shape[1], V.shape[1]
     A = (weight[:, None, None] * U[:, :, None] * V[:, None, :]).reshape(len(U), nu * nv)
     du, dv = np.diff(np.eye(nu), 2, axis=0), np.diff(np.eye(nv), 2, axis=0)
@@ -110,18 +116,23 @@ def _least_squares(flat: Flattened, knots: tuple[Array, Array], weight: Array) -
     index = np.arange(nu * nv).reshape(nu, nv)
     profiles = [index[k] for k, flat_one in ((0, flat.flat_ends[0]), (-1, flat.flat_ends[1])) if not flat_one]
     zero = {1: np.unique(np.concatenate([index[:, 0], *profiles])), 2: index[:, -1]}
-    M, b = A.T @ A + stiff.T @ stiff, A.T @ (weight[:, None] * flat.vertices)
+    M, b = A.T @ A + stiff.T @ stiff, A.T @ (weight[:, None] * places)
     C = np.zeros((nu * nv, 3))
-    for k in range(3):
-        free = np.setdiff1d(np.arange(nu * nv), zero.get(k, []))
-        for _ in range(_POSITIVE if k == 1 else 1):
-            C[:, k] = 0.0
-            C[free, k] = np.linalg.solve(M[np.ix_(free, free)], b[free, k])
-            if k != 1 or C[:, 1].min() >= 0.0:
-                break
-            free = free[C[free, 1] > 0.0]
-        C[:, 1] = np.maximum(C[:, 1], 0.0)
+    for k, sign in ((0, 0.0), (1, 1.0), (2, -1.0)):
+        C[:, k] = _solved(M, b[:, k], zero.get(k, np.zeros(0, dtype=np.int64)), sign)
     return Sheet(knots, C.reshape(nu, nv, 3), flat.flat_ends, tuple(flat.uv[list(flat.kinks), 0].tolist()))
+
+
+def _solved(M: Array, b: Array, zero: NDArray[np.int64], sign: float) -> Array:
+    """Return the solution of M c = b with some c zero and, where `sign` is not zero, none of the other sign."""
+    c, free = np.zeros(len(b)), np.setdiff1d(np.arange(len(b)), zero)
+    for _ in range(_ONE_SIDED):
+        c[:] = 0.0
+        c[free] = np.linalg.solve(M[np.ix_(free, free)], b[free])
+        if (sign * c).min() >= 0.0:
+            return c
+        free = free[sign * c[free] > 0.0]
+    return np.where(sign * c < 0.0, 0.0, c)
 
 
 def _nearer(sheet: Sheet, flat: Flattened) -> Array:
