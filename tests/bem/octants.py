@@ -1,4 +1,4 @@
-"""Curved meshes of a hemisphere inside a hemisphere (quarter or more), three patches to an octant, for tests of the inner domain."""
+"""Curved meshes of a hemisphere inside a hemisphere (quarter or more), three patches to an octant."""
 
 from itertools import pairwise
 

@@ -5,10 +5,10 @@ from functools import cache
 import numpy as np
 import pytest
 from octants import hemisphere_in_hemisphere
+from ogilvie.bem.inner_mesh import inner_mesh
 
 from ogilvie.bem.curved_split import side_points, split_at_waterline
 from ogilvie.bem.hybrid import hybrid_bem
-from ogilvie.bem.inner_mesh import inner_mesh
 from ogilvie.body import RigidBody
 from ogilvie.errors import InputError
 from ogilvie.mesh.shapes import box, hemisphere

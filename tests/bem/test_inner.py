@@ -119,7 +119,7 @@ def test_reciprocal_map_is_exact_where_the_map_is_symmetric():
     symmetric = type(inner)(inner.nodes, inner.parity, inner.matrix + inner.matrix.T)
     Y, modes = np.eye((part == CONTROL).sum()), surface_modes(inner.nodes, inner.parity)[1]
     motions = normal_modes(inner.nodes)[inner.dofs] * inner.root_weight[part == BODY]
-    one, two = (reciprocal(symmetric, Y, modes, motions, how) for how in ("smoother", "mean"))
+    one, two = (reciprocal(symmetric, Y, modes, motions, smooth=len(modes), how=how) for how in ("smoother", "mean"))
     for name in ("ff", "qf", "qq", "vf", "vq", "vv"):
         np.testing.assert_allclose(getattr(one, name), getattr(two, name), atol=1e-12)
     T = symmetric.matrix[np.ix_(part == BODY, part == FREE)]

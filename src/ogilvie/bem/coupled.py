@@ -19,6 +19,7 @@ from ogilvie.errors import ConvergenceError, InputError
 Array = NDArray[Any]
 
 _MISSED = 0.5  # largest part of the square of a function on the control surface that its nodes may miss
+_SMOOTH = 150.0  # wavenumber in 1/Rc up to which modes of the free surface count as smooth
 _FEWEST = 4  # functions of the depth in the lowest azimuthal mode
 _MORE = 6  # points per side of a panel, more than nodes, for integrals of these functions
 
@@ -43,7 +44,7 @@ DepthFunctions = Callable[[int, Array, int], Array]
 
 @dataclass(frozen=True, eq=False)
 class CoupledSystem:
-    """z'' + dampers dampers.T z' + stiffness z = inputs v, phi_hull = inputs.T z - instantaneous v, in units of control radius and gravity.
+    """z'' + dampers dampers.T z' + stiffness z = inputs v, phi_hull = inputs.T z - instantaneous v, with Rc = g = 1.
 
     Parameters
     ----------
@@ -145,7 +146,8 @@ def coupled_system(
     sea = _outer(inner, outer, depth_functions)
     wavenumber, modes = surface_modes(nodes, inner.parity)
     motions = normal_modes(nodes, centre)[inner.dofs] * inner.root_weight[nodes.part == BODY]
-    T = reciprocal(inner, sea.functions, modes, motions, reciprocity)
+    smooth = int(np.sum(wavenumber < _SMOOTH))
+    T = reciprocal(inner, sea.functions, modes, motions, smooth=smooth, how=reciprocity)
     try:
         half = np.linalg.inv(np.linalg.cholesky(sea.instantaneous - T.qq))
     except np.linalg.LinAlgError:
@@ -177,7 +179,8 @@ def _outer(inner: InnerMap, outer: Sequence[OuterMode], depth_functions: DepthFu
     from scipy.linalg import block_diag
 
     nodes, symmetry = inner.nodes, inner.nodes.mesh.symmetry
-    rows, blocks, missed = [], [], 0.0
+    rows: list[Array] = []
+    blocks, missed = [], 0.0
     for m, sine in azimuthal_modes(inner.parity, (symmetry == "xz+yz", symmetry != "none"), len(outer) - 1):
         mode = outer[m]
         Y = control_functions(nodes, m, sine, len(mode.instantaneous), depth_functions)
@@ -185,8 +188,8 @@ def _outer(inner: InnerMap, outer: Sequence[OuterMode], depth_functions: DepthFu
         J = int(np.argmax(np.append(lost, 2.0) > _MISSED))
         if J < _FEWEST and not rows:
             raise InputError(
-                f"The nodes of the control surface hold {J} functions of the depth of the azimuthal mode {m}, {_FEWEST} or more "
-                "expected. Use more panels on the control surface, or a higher order."
+                f"The nodes of the control surface hold {J} functions of the depth of azimuthal mode {m}, {_FEWEST} or "
+                "more expected. Use more panels on the control surface, or a higher order."
             )
         if J:
             missed = max(missed, float(lost[:J].max()))
@@ -199,9 +202,9 @@ def _outer(inner: InnerMap, outer: Sequence[OuterMode], depth_functions: DepthFu
 def control_functions(nodes: CurvedNodes, m: int, sine: bool, count: int, depth_functions: DepthFunctions) -> Array:
     """Return the functions of azimuthal mode m on the control surface as seen by its nodes, (count, n_control).
 
-    Rows hold int L_i Y dS / sqrt(weight_i) with L_i one at node i and zero at the others, by a rule of more points than nodes: the
-    row times (values times sqrt(weight)) is the integral of Y times what the nodes hold, the transposed row the best approximation
-    of Y by the nodes. A function of unit square that the nodes cannot hold has a shorter row.
+    Rows hold int L_i Y dS / sqrt(weight_i) with L_i one at node i and zero at the others, by a rule of more points than
+    nodes: the row times (values times sqrt(weight)) is the integral of Y times what the nodes hold, the transposed row the
+    best approximation of Y by the nodes. A function of unit square that the nodes cannot hold has a shorter row.
     """
     p, on = nodes.order, nodes.mesh.part == CONTROL
     t, w = legendre.leggauss(p + _MORE)

@@ -28,7 +28,8 @@ class Influence:
     parities : (n_c, 2) array
         Of each class: sign of the potential under x -> -x and under y -> -y.
     single, double : (n_c, N, N) array
-        int L_j / r dS (m) and int L_j d(1/r)/dn dS over the stored part and its images, L_j one at node j and zero at the others.
+        int L_j / r dS (m) and int L_j d(1/r)/dn dS over the stored part and its images, L_j one at node j and zero at the
+        others.
     """
 
     nodes: CurvedNodes
@@ -65,8 +66,9 @@ def influence(nodes: CurvedNodes, *, tolerance: float = 1e-6) -> Influence:
 
     Notes
     -----
-    A Gauss rule of n points on an analytic integrand errs as s^(-2n), s the size of the ellipse with foci at the ends of the interval
-    that passes through the nearest singularity. The rule of a box and the halving of boxes follow from s and the tolerance.
+    A Gauss rule of n points on an analytic integrand errs as s^(-2n), s the size of the ellipse with foci at the ends of the
+    interval that passes through the nearest singularity. The rule of a box and the halving of boxes follow from s and the
+    tolerance.
 
     Examples
     --------
@@ -174,7 +176,8 @@ def check_closed(matrices: Influence, *, tolerance: float = 1e-3) -> float:
     Raises
     ------
     InputError
-        A defect above the tolerance: the boundary has gaps, overlaps or normals that point inwards. The message names the panel.
+        A defect above the tolerance: the boundary has gaps, overlaps or normals that point inwards. The message names the
+        panel.
     """
     defect = np.abs(matrices.solid_angle / (2.0 * np.pi) - 1.0)
     worst = int(np.argmax(defect))
@@ -183,8 +186,8 @@ def check_closed(matrices: Influence, *, tolerance: float = 1e-3) -> float:
         panel = worst // nodes.order**2
         where = ", ".join(f"{c:.4g}" for c in nodes.position[worst])
         raise InputError(
-            f"The boundary of the inner domain is not closed: from panel {panel} ({PARTS[nodes.mesh.part[panel]]}, at {where}) it fills "
-            f"{matrices.solid_angle[worst] / (2 * np.pi):.5f} of the half space, 1 within {tolerance:.1g} expected. "
+            f"The boundary of the inner domain is not closed: from panel {panel} ({PARTS[nodes.mesh.part[panel]]}, at {where}) "
+            f"it fills {matrices.solid_angle[worst] / (2 * np.pi):.5f} of the half space, 1 within {tolerance:.1g} expected. "
             "Look there for gaps, overlaps or panels whose normal points into the fluid."
         )
     return float(defect[worst])

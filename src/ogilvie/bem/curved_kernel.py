@@ -4,8 +4,8 @@ The panel is sum_kl c_kl T_k(u) T_l(v). Moments of the single and of the double 
 
     s_kl = int P_k(u) P_l(v) |x_u x x_v| / r du dv,    d_kl = int P_k(u) P_l(v) (x - y).(x_u x x_v) / r^3 du dv,
 
-are taken over boxes of the parameter square: a product Gauss rule where the point is far enough from the box for it, halves of the
-box otherwise; from a point of the panel itself, over the four triangles that it makes with the sides.
+are taken over boxes of the parameter square: a product Gauss rule where the point is far enough from the box for it, halves
+of the box otherwise; from a point of the panel itself, over the four triangles that it makes with the sides.
 """
 
 import math
@@ -85,7 +85,7 @@ def add_rule(y: Array, x: Array, weight: Array, Pu: Array, Pv: Array, S: Array, 
 
 @njit(cache=True, nogil=True, fastmath={"contract", "reassoc", "nsz"})
 def box_points(c: Array, u: Array, v: Array, y: Array, Tu: Array, Tv: Array, half: Array) -> None:
-    """Put positions and x_u x x_v at the products of u and v (n,) into y (n, n, 6); Tu, Tv (2, n, q), half (2, q, 3) are room."""
+    """Put positions and x_u x x_v at the products of u and v (n,) into y (n, n, 6); Tu, Tv (2, n, q), half (2, q, 3): room."""
     n, q = u.size, c.shape[0]
     for i in range(n):
         _chebyshev(u[i], Tu[0, i], Tu[1, i])
@@ -129,7 +129,7 @@ def ellipse(offset: float, apart: float) -> float:
 
 @njit(cache=True, nogil=True)
 def reach(x: Array, y: Array, hu: float, hv: float) -> tuple[float, float, float]:
-    """Return the ellipse sizes in u and in v of a box of half sides hu, hv whose centre has the frame y (3, 3); length/breadth."""
+    """Return ellipse sizes in u and v of a box of half sides hu, hv with the frame y (3, 3) in its middle; its slenderness."""
     lu = math.sqrt(y[1, 0] ** 2 + y[1, 1] ** 2 + y[1, 2] ** 2)
     lv = math.sqrt(y[2, 0] ** 2 + y[2, 1] ** 2 + y[2, 2] ** 2)
     a = b = skew = square = 0.0

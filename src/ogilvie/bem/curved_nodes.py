@@ -15,7 +15,8 @@ from ogilvie.errors import InputError
 class CurvedNodes:
     """The p x p Gauss-Legendre points of every panel, panel by panel, u before v.
 
-    A density is the polynomial of degree p - 1 in u and in v through its values there; `weight` integrates over the stored part.
+    A density is the polynomial of degree p - 1 in u and in v through its values there; `weight` integrates over the stored
+    part.
 
     Parameters
     ----------

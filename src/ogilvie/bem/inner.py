@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ogilvie.bem.curved import BODY, CONTROL, FREE, CurvedMesh
+from ogilvie.bem.curved import BODY, FREE, CurvedMesh
 from ogilvie.bem.curved_influence import Influence, check_closed, influence
 from ogilvie.bem.curved_nodes import CurvedNodes
 from ogilvie.errors import ConvergenceError
@@ -22,8 +22,8 @@ DOF_PARITIES = np.array([[-1, 1], [1, -1], [1, 1], [1, -1], [-1, 1], [-1, -1]])
 class InnerMap:
     """The map (f, q, v) -> (e, -phi_control, -phi_hull) of one class of symmetry, in the nodes' values times sqrt(weight).
 
-    Lengths are in control radii. f is the potential on the free surface and e its normal derivative there, q and v are the normal
-    derivatives on control surface and hull (normals out of the fluid).
+    Lengths are in control radii. f is the potential on the free surface and e its normal derivative there, q and v are the
+    normal derivatives on control surface and hull (normals out of the fluid).
 
     Parameters
     ----------
@@ -46,14 +46,14 @@ class InnerMap:
 
     @cached_property
     def asymmetry(self) -> float:
-        """Largest singular value of the antisymmetric part over that of the matrix: of rough functions, which K hardly feels."""
+        """Size of the antisymmetric part over that of the matrix: an error of rough functions, which K hardly feels."""
         return _norm(0.5 * (self.matrix - self.matrix.T)) / _norm(self.matrix)
 
     @property
     def dofs(self) -> list[int]:
         """Dofs whose motion makes a potential of this class."""
         mirrored = [self.nodes.mesh.symmetry == "xz+yz", self.nodes.mesh.symmetry != "none"]
-        fits = (DOF_PARITIES == self.parity) | ~np.array(mirrored)
+        fits = (self.parity == DOF_PARITIES) | ~np.array(mirrored)
         return [int(i) for i in np.flatnonzero(fits.all(axis=1))]
 
 
@@ -86,8 +86,8 @@ def inner_maps(mesh: CurvedMesh, *, order: int = 4, tolerance: float = 1e-6) -> 
 
         c phi + int phi d(1/r)/dn dS = int phi_n / r dS.
 
-    For two harmonic functions int (phi psi_n - psi phi_n) dS = 0, so the map is symmetric in the area-weighted product. The discrete
-    map is so for smooth functions; :func:`ogilvie.bem.reciprocity.reciprocal` makes it so for all.
+    For two harmonic functions int (phi psi_n - psi phi_n) dS = 0, so the map is symmetric in the area-weighted product. The
+    discrete map is so for smooth functions; :func:`ogilvie.bem.reciprocity.reciprocal` makes it so for all.
     """
     nodes = CurvedNodes(unit_mesh(mesh), order)
     matrices = influence(nodes, tolerance=tolerance)

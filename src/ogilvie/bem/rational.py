@@ -27,9 +27,9 @@ class RationalStep:
     Notes
     -----
     The Pade approximation R of exp with DEGREE - 1 zeros and DEGREE poles p_j is that of the Radau IIA methods: |R(z)| <= 1 for
-    Re z <= 0, R(inf) = 0. As x.T A x <= 0, von Neumann's theorem gives |R(h A) x| <= |x|: no step can make anything grow, however
-    strong the dampers. In partial fractions R(h A) = sum_j c_j (h A - p_j)^-1; without dampers each term is diagonal in pairs, and
-    the r dampers change it by a matrix of rank r (Woodbury): a step costs O(n r), and no matrix is formed.
+    Re z <= 0, R(inf) = 0. As x.T A x <= 0, von Neumann's theorem gives |R(h A) x| <= |x|: no step can make anything grow,
+    however strong the dampers. In partial fractions R(h A) = sum_j c_j (h A - p_j)^-1; without dampers each term is diagonal
+    in pairs, and the r dampers change it by a matrix of rank r (Woodbury): a step costs O(n r), and no matrix is formed.
 
     References
     ----------
@@ -73,7 +73,7 @@ def poles() -> list[tuple[complex, complex]]:
     ]
     P, Q = np.polynomial.Polynomial(top), np.polynomial.Polynomial(bottom)
     out = []
-    for root in Q.roots():
+    for root in np.asarray(Q.roots(), dtype=complex):
         if root.imag > -1e-9:
             pair = 2.0 if root.imag > 1e-9 else 1.0
             out.append((complex(root), complex(pair * P(root) / Q.deriv()(root))))

@@ -35,7 +35,9 @@ class ReciprocalMap:
     vv: Array
 
 
-def reciprocal(inner: InnerMap, control: Array, surface: Array, motions: Array, how: Reciprocity = "smoother") -> ReciprocalMap:
+def reciprocal(
+    inner: InnerMap, control: Array, surface: Array, motions: Array, *, smooth: int, how: Reciprocity = "smoother"
+) -> ReciprocalMap:
     """Return the symmetric map.
 
     Parameters
@@ -47,17 +49,20 @@ def reciprocal(inner: InnerMap, control: Array, surface: Array, motions: Array, 
         Modes of the free surface in columns, from smooth to rough.
     motions : (k, n_hull) array
         Normal velocities of the hull in the dofs of the class. All are values at nodes times sqrt(weight).
+    smooth : int
+        Modes of the free surface that count as smooth.
     how : {"smoother", "mean"}
 
     Notes
     -----
-    In functions b_i ordered from smooth to rough T_ij = b_i.T T b_j and T_ji are equal for the exact map. The discrete map is good for
-    the smooth b_j, and b_i.T only weighs its result; a rough b_i is badly represented, worst at edges. So for i > j
+    In functions b_i ordered from smooth to rough T_ij = b_i.T T b_j and T_ji are equal for the exact map. The discrete map is
+    good for the smooth b_j, and b_i.T only weighs its result; a rough b_i is badly represented, worst at edges. So for i > j
 
-        smoother: T_ij = T_ji := b_i.T T b_j        mean: T_ij = T_ji := (b_i.T T b_j + b_j.T T b_i) / 2.
+        smoother: T_ij = T_ji := b_i.T T b_j, mean where both are rough      mean: T_ij = T_ji := (b_i.T T b_j + b_j.T T b_i)
+        / 2.
 
-    Order: motions of the hull, functions of the control surface, modes of the free surface, all else on the hull. The difference of
-    the two is a measure of the error.
+    Order: motions of the hull, functions of the control surface, modes of the free surface, all else on the hull. The
+    difference of the two is a measure of the error.
     """
     part = inner.nodes.part
     hull, body, free, outer = _completed(motions), part == BODY, part == FREE, part == CONTROL
@@ -68,7 +73,12 @@ def reciprocal(inner: InnerMap, control: Array, surface: Array, motions: Array, 
     R[np.ix_(outer, q)] = control.T
     R[np.ix_(free, f)] = surface
     T = R.T @ (inner.matrix @ R)
-    T = np.tril(T) + np.tril(T, -1).T if how == "smoother" else 0.5 * (T + T.T)
+    mean = 0.5 * (T + T.T)
+    if how == "smoother":
+        edge = k + n_q + smooth
+        mean[:, :edge] = np.tril(T)[:, :edge]
+        mean = np.tril(mean) + np.tril(mean, -1).T
+    T = mean
     pairs = {"ff": (f, f), "qf": (q, f), "qq": (q, q), "vf": (v, f), "vq": (v, q), "vv": (v, v)}
     return ReciprocalMap(hull, **{name: T[np.ix_(a, b)] for name, (a, b) in pairs.items()})
 

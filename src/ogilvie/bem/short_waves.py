@@ -61,16 +61,17 @@ def short_waves(system: CoupledSystem, *, limit: float | None = None, strength: 
 
     Notes
     -----
-    rate = alpha sqrt(k) x/(1 + x), x = (k/kc)^4, for the Neumann modes of the free surface, in force from t = 4/sqrt(k) on and fully
-    from 14/sqrt(k). An impulse makes waves of all lengths (at a vertical wall psi_z is logarithmic). What they add to the force
-    cancels within a few of their periods, as they run away; on panels they do not: waves too short for the panels farther out are
-    caught in the fine ones at the waterline. Damping from the start would take away force that is real; damping after some periods
-    takes away what should have gone.
+    rate = alpha sqrt(k) x/(1 + x), x = (k/kc)^4, for the Neumann modes of the free surface, in force from t = 4/sqrt(k) on
+    and fully from 14/sqrt(k). An impulse makes waves of all lengths (at a vertical wall psi_z is logarithmic). What they add
+    to the force cancels within a few of their periods, as they run away; on panels they do not: waves too short for the
+    panels farther out are caught in the fine ones at the waterline. Damping from the start would take away force that is
+    real; damping after some periods takes away what should have gone.
 
-    The operator must not act at the control surface: it sees the wave together with its mirror image there, and their kink would
-    reflect. It falls to zero from a fifth of the way between waterline and control surface on.
+    The operator must not act at the control surface: it sees the wave together with its mirror image there, and their kink
+    would reflect. It falls to zero from a fifth of the way between waterline and control surface on.
     """
-    k = np.where(np.isinf(system.wavenumber), 2.0 * np.max(system.wavenumber, where=np.isfinite(system.wavenumber), initial=0.0),
+    k = np.where(np.isinf(system.wavenumber), 2.0 * np.max(system.wavenumber, where=np.isfinite(system.wavenumber),
+    initial=0.0),
                  system.wavenumber)  # fmt: skip
     kc = wavenumber_limit(system.inner.nodes) if limit is None else limit
     x = (k / kc) ** _POWER

@@ -85,9 +85,9 @@ def impulse_response(
 
         A = [[0, W], [-W, -O O.T]],   O = U.T dampers,   d|x|^2/dt = -2 |O.T U.T z'|^2 <= 0.
 
-    Steps of :class:`ogilvie.bem.rational.RationalStep` contract whatever their length. Late damping is put between, half before and
-    half after, as z' -> z' + shape (exp(-rate ramp h/2) - 1) shape.T z', which contracts too: nothing can grow. Once it is constant
-    so is the step M, and for few oscillators two sequences of about sqrt(count) vectors give all times:
+    Steps of :class:`ogilvie.bem.rational.RationalStep` contract whatever their length. Late damping is put between, half
+    before and half after, as z' -> z' + shape (exp(-rate ramp h/2) - 1) shape.T z', which contracts too: nothing can grow.
+    Once it is constant so is the step M, and for few oscillators two sequences of about sqrt(count) vectors give all times:
     (inputs.T z')(i + j m) = (b.T M^i) (M^(j m) x).
 
     Examples

@@ -1,4 +1,4 @@
-"""Standing waves of the free surface inside the control hemisphere: Neumann modes of its Laplace operator, and damping by them."""
+"""Standing waves of the free surface inside the control hemisphere: Neumann modes of its Laplace operator."""
 
 from typing import Any
 
@@ -34,9 +34,9 @@ def surface_modes(nodes: CurvedNodes, parity: Array) -> tuple[Array, Array]:
 
         M_ij = int f_i f_j dS,   K_ij = int grad f_i . grad f_j dS,   K f = k^2 M f
 
-    are integrated by the p x p nodes themselves, so the modes are orthonormal there. A class that is odd in x (y) has no value on
-    the line x = 0 (y = 0). The p^2 values of each panel have more freedom than continuous functions: the rest, jumps between panels,
-    completes the basis.
+    are integrated by the p x p nodes themselves, so the modes are orthonormal there. A class that is odd in x (y) has no
+    value on the line x = 0 (y = 0). The p^2 values of each panel have more freedom than continuous functions: the rest, jumps
+    between panels, completes the basis.
     """
     from scipy.linalg import eigh, null_space
 
@@ -75,7 +75,7 @@ def _continuous(nodes: CurvedNodes, parity: Array) -> tuple[Array, tuple[Array, 
 
 
 def _merged(points: Array, parity: Array, nodes: CurvedNodes) -> tuple[Array, Array]:
-    """Number the points (n, 3) so that equal ones share a number; tell which numbers are off the lines where the class is zero."""
+    """Number the points (n, 3), equal ones alike; tell which numbers are off the lines where the class is zero."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
     from scipy.spatial import cKDTree
