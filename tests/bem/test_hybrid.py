@@ -84,7 +84,7 @@ def test_box_does_not_change_with_resolution():
     coarse, fine = (hybrid_bem(box(4.0, 1.0, 0.5), duration=30.0, dt=0.1, rho=1.0, g=1.0, resolution=r) for r in (0.7, 1.0))
     for i, most in ((0, 8e-3), (2, 2e-3)):
         assert np.abs(coarse.K[:, i, i] - fine.K[:, i, i]).max() < most * fine.K[0, i, i]
-        assert coarse.A_inf[i, i] == pytest.approx(fine.A_inf[i, i], rel=2e-3)
+        assert coarse.A_inf[i, i] == pytest.approx(fine.A_inf[i, i], rel=5e-3)
         assert np.all(np.abs(fine.K[fine.t > 25, i, i]) < 3e-3 * fine.K[0, i, i])
 
 
