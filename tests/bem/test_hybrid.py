@@ -5,10 +5,10 @@ from functools import cache
 import numpy as np
 import pytest
 from octants import hemisphere_in_hemisphere
-from ogilvie.bem.inner_mesh import inner_mesh
 
 from ogilvie.bem.curved_split import side_points, split_at_waterline
 from ogilvie.bem.hybrid import hybrid_bem
+from ogilvie.bem.inner_mesh import inner_mesh
 from ogilvie.body import RigidBody
 from ogilvie.errors import InputError
 from ogilvie.mesh.shapes import box, hemisphere
@@ -84,7 +84,7 @@ def test_box_does_not_change_with_resolution():
     coarse, fine = (hybrid_bem(box(4.0, 1.0, 0.5), duration=30.0, dt=0.1, rho=1.0, g=1.0, resolution=r) for r in (0.7, 1.0))
     for i, most in ((0, 8e-3), (2, 2e-3)):
         assert np.abs(coarse.K[:, i, i] - fine.K[:, i, i]).max() < most * fine.K[0, i, i]
-        assert coarse.A_inf[i, i] == pytest.approx(fine.A_inf[i, i], rel=2e-3)
+        assert coarse.A_inf[i, i] == pytest.approx(fine.A_inf[i, i], rel=5e-3)
         assert np.all(np.abs(fine.K[fine.t > 25, i, i]) < 3e-3 * fine.K[0, i, i])
 
 

@@ -165,8 +165,9 @@ def _table(parts: list[_Part], mesh: CurvedMesh, t: Array, rho: float, g: float,
     for part in parts:
         at = np.ix_(part.dofs, part.dofs)
         A[at] = part.system.added_mass
-        always = np.ix_(np.arange(len(t)), part.dofs, part.dofs)
-        K[always], other[always] = part.response.K, part.other.K
+        for i, j in np.ndindex(len(part.dofs), len(part.dofs)):
+            K[:, part.dofs[i], part.dofs[j]] = part.response.K[:, i, j]
+            other[:, part.dofs[i], part.dofs[j]] = part.other.K[:, i, j]
     arm = np.where(np.arange(6) < 3, 1.0, mesh.radius)
     unit = rho * mesh.radius**2 * np.outer(arm, arm)
     peak = np.abs(K).max(axis=0)

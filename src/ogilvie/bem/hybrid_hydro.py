@@ -8,7 +8,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from ogilvie.bem import hybrid
 from ogilvie.bem.coupled import coupled_system
-from ogilvie.bem.curved import CurvedMesh
 from ogilvie.bem.inner import inner_maps
 from ogilvie.bem.outer import depth_functions, outer_mode
 from ogilvie.bem.short_waves import short_waves, wavenumber_limit

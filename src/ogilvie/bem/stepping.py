@@ -107,25 +107,25 @@ def impulse_response(
             "the mesh of the inner domain is too coarse or distorted."
         )
     W, parts = np.sqrt(np.maximum(size, 0.0)), int(np.ceil(dt / _STEP - 1e-9))
-    move = RationalStep(W, turn.T @ dampers, dt / parts)
+    h = dt / parts
+    move = RationalStep(W, turn.T @ dampers, h)
     b = np.concatenate([np.zeros_like(inputs), turn.T @ inputs])
-    shape = turn.T @ (np.zeros((len(W), 0)) if late is None else late.shape)
     seen = b if outputs is None else np.concatenate([np.zeros_like(outputs), turn.T @ outputs])
     path = _Path(seen, b.copy())
-    if late is not None:
-        for i in range(min(int(np.ceil(late.complete / dt)), count - 1)):
-            for j in range(parts):
-                now, then = (late.loss(i * dt + (j + m) * dt / parts, 0.5 * dt / parts) for m in (0, 1))
-                path.x = _damped(move(_damped(path.x, shape, now)), shape, then)
+    if late is None:
+        path.go_on(lambda x: _repeated(move, x, parts), count - 1)
+    else:
+        shape = turn.T @ late.shape
+        path.x = move(_damped(path.x, shape, late.loss(0.0, 0.5 * h)))
+        first = min(int(np.ceil(late.complete / dt)), count - 1)
+        for i in range(1, parts * first):
+            if i % parts == 0:
+                path.record(_damped(path.x, shape, late.loss(i * h, 0.5 * h)))
+            path.x = move(_damped(path.x, shape, late.loss(i * h, h)))
+        path.b, loss = _damped(seen, shape, late.loss(first * dt, 0.5 * h)), late.loss(late.complete, h)
+        if len(path.K) < count:
             path.record()
-    loss = np.zeros(0) if late is None else late.loss(late.complete, 0.5 * dt / parts)
-
-    def step(x: Array) -> Array:
-        for _ in range(parts):
-            x = _damped(move(_damped(x, shape, loss)), shape, loss)
-        return x
-
-    path.go_on(step, count - len(path.K))
+        path.go_on(lambda x: _repeated(lambda y: move(_damped(y, shape, loss)), x, parts), count - len(path.K))
     K = np.array(path.K)
     if outputs is None:
         K = 0.5 * (K + K.transpose(0, 2, 1))
@@ -139,6 +139,12 @@ def _damped(x: Array, shape: Array, loss: Array) -> Array:
     return np.concatenate([x[:n], v + shape @ (loss[:, None] * (shape.T @ v))])
 
 
+def _repeated(step: Callable[[Array], Array], x: Array, times: int) -> Array:
+    for _ in range(times):
+        x = step(x)
+    return x
+
+
 class _Path:
     """State x with what is seen of it: b.T x, and |x|^2, at each time."""
 
@@ -148,9 +154,11 @@ class _Path:
         self.energy: list[Array] = []
         self.record()
 
-    def record(self) -> None:
-        self.K.append(self.b.T @ self.x)
-        self.energy.append(np.sum(self.x**2, axis=0))
+    def record(self, x: Array | None = None) -> None:
+        """Record x, or another state than the own."""
+        x = self.x if x is None else x
+        self.K.append(self.b.T @ x)
+        self.energy.append(np.sum(x**2, axis=0))
 
     def go_on(self, step: Callable[[Array], Array], count: int) -> None:
         """Add `count` times by equal steps."""
