@@ -89,8 +89,8 @@ def mean_drift(
         * energy_imbalance: wave energy radiated, scattered and damped less that taken from the incident wave, as a part of it
         * difference_pressure, difference_control_surface: distance from the far field, as a part of the largest value over all
           directions at that frequency
-        * flag_energy (imbalance above 2 %, at speed 10), flag_pressure, flag_control_surface (difference above 10 %, at speed
-          30), flag_vertical (heave, roll or pitch by near field and control surface more than half apart)
+        * flag_energy (imbalance above 2 %, at speed 25), flag_pressure, flag_control_surface (difference above 10 %, at speed
+          50), flag_vertical (heave, roll or pitch by near field and control surface more than half apart)
         * motion_rao: the motions
         * at speed: encounter_frequency (signed), flag_slow_encounter (U omega_e/g below 1/4)
 
@@ -119,8 +119,8 @@ def mean_drift(
     At speed `omega` is the frequency of the incident waves, and the first order is that of :func:`ogilvie.solve_bem`: the Green
     function of zero speed at the frequency of encounter, uniform flow past the hull. Near field and control surface then hold
     (d/dt - U d/dx) in place of d/dt throughout; the far field is Maruo's with the waves that a moving ship makes
-    (:mod:`ogilvie.hydro.drift_maruo`). The methods are some 10 to 30 % apart where added resistance is large, more in long and
-    in short waves (docs/theory/drift.md).
+    (:mod:`ogilvie.hydro.drift_maruo`). Near field and control surface give peaks of added resistance 30 to 80 % above the far
+    field's, which is the one close to model tests (docs/theory/drift.md).
 
     At sharp edges the velocity is infinite and its square near the edge is badly resolved by panels: there the near field is
     for comparison only, while the other two need no velocity on the hull.

@@ -197,29 +197,34 @@ class FirstOrder:
         line = self.hull.waterline
         if rule == "centre":
             return self.potential[:, line.owner]
-        level, slope = self._scattered(self.fields)
-        arm = line.middle - self.hull.centers[line.owner]
-        scattered = level[:, line.owner] + np.einsum("bni,ni->bn", slope[:, line.owner], arm)
-        return np.asarray(scattered + self.incident(line.middle)[0])
+        return np.asarray(self.scattered_line[0] + self.incident(line.middle)[0])
 
     def elevation(self, rule: WaterlineRule) -> Complex:
-        """Return the total elevation (n_b, n) -(i omega_e phi - U d phi/dx)/g at the waterline's edges.
-
-        Notes
-        -----
-        At speed the velocity of the scattered waves is extrapolated along the hull from the two highest rows of panels, that of
-        the incident wave is exact. "centre" takes the panel's value.
-        """
+        """Return the total elevation (n_b, n) -(i omega_e phi - U d phi/dx)/g at the waterline's edges; see `at_waterline`."""
         w, line = self.wave, self.hull.waterline
         eta = -1j * w.omega_e / w.g * self.at_waterline(rule)
         if w.speed == 0.0:
             return eta
         if rule == "centre":
             return np.asarray(eta + w.speed / w.g * self.velocity[:, line.owner, 0])
-        slope = self.velocity[..., 0] - self.incident(self.hull.centers)[1][..., 0]
-        top, below = slope[:, line.owner], slope[:, line.below]
-        along = top + (top - below) * line.beyond + self.incident(line.middle)[1][..., 0]
-        return np.asarray(eta + w.speed / w.g * along)
+        return np.asarray(eta + w.speed / w.g * (self.scattered_line[1] + self.incident(line.middle)[1][..., 0]))
+
+    @cached_property
+    def scattered_line(self) -> tuple[Complex, Complex]:
+        """Potential and velocity along x (n_b, n) of the scattered and radiated waves at the waterline's edges.
+
+        Notes
+        -----
+        phi_S(c) + grad phi_S(c) . (m - c) from the panel's centre c to the middle m of its edge; the velocity is extrapolated
+        along the hull from the two highest rows of panels.
+        """
+        line = self.hull.waterline
+        level, slope = self._scattered(self.fields)
+        arm = line.middle - self.hull.centers[line.owner]
+        phi = level[:, line.owner] + np.einsum("bni,ni->bn", slope[:, line.owner], arm)
+        along = self.velocity[..., 0] - self.incident(self.hull.centers)[1][..., 0]
+        top, below = along[:, line.owner], along[:, line.below]
+        return np.asarray(phi), np.asarray(top + (top - below) * line.beyond)
 
     def momentum(self, phi: Complex) -> Complex:
         """Return the integral (n_f, 6) of phi (n, x x n) dS for potentials (n_f, n) at the panels."""

@@ -17,7 +17,7 @@ Method = Literal["auto", "near", "far", "control_surface"]
 
 #: Beyond these energy and methods are flagged, at rest and at speed, where the theory itself is less exact.
 ENERGY_LIMIT, METHOD_LIMIT, VERTICAL_LIMIT = 0.02, 0.10, 0.5
-ENERGY_LIMIT_AT_SPEED, METHOD_LIMIT_AT_SPEED = 0.10, 0.30
+ENERGY_LIMIT_AT_SPEED, METHOD_LIMIT_AT_SPEED = 0.25, 0.50
 #: Smallest U omega_e/g at which waves radiated ahead of a moving ship stay behind it.
 _CRITICAL = 0.25
 _HORIZONTAL, _VERTICAL = [0, 1, 5], [2, 3, 4]
