@@ -44,7 +44,7 @@ DepthFunctions = Callable[[int, Array, int], Array]
 
 @dataclass(frozen=True, eq=False)
 class CoupledSystem:
-    """z'' + dampers dampers.T z' + stiffness z = inputs v, phi_hull = inputs.T z - instantaneous v, with Rc = g = 1.
+    """z'' + dampers dampers.T z' + stiffness z = inputs v, phi_hull = inputs.T z + instantaneous v, with Rc = g = 1.
 
     Parameters
     ----------

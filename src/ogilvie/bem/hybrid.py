@@ -6,12 +6,13 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ogilvie.bem.coupled import CoupledSystem, coupled_system
+from ogilvie.bem.coupled import CoupledSystem
 from ogilvie.bem.curved import CurvedMesh
-from ogilvie.bem.curved_split import split_at_waterline
+from ogilvie.bem.hybrid_case import HybridCase, floating, hybrid_case
 from ogilvie.bem.inner import InnerMap, inner_maps
-from ogilvie.bem.inner_mesh import default_size, inner_mesh
-from ogilvie.bem.outer import depth_functions, outer_mode
+from ogilvie.bem.inner_mesh import inner_mesh
+from ogilvie.bem.plain import plain_hybrid
+from ogilvie.bem.plain_boundary import flat_boundary
 from ogilvie.bem.short_waves import short_waves, wavenumber_limit
 from ogilvie.bem.stepping import Response, impulse_response
 from ogilvie.body import RigidBody
@@ -22,14 +23,8 @@ from ogilvie.units import GRAVITY, SEA_WATER
 
 Array = NDArray[Any]
 
-_DT = 0.035  # default time step over sqrt(control radius / g)
-_SIZE = 1.75  # length of panels over the mesher's default
-_ROWS, _DEPTH = 6, 3  # rows of panels on the free surface and on the control surface
-_FINE = 1.5  # resolution from which on the panels at the waterline are divided twice
-_MODES, _FUNCTIONS = 17, 12  # azimuthal modes and depth functions of the outer domain
 _OTHER_LIMIT = 0.8  # of the wavenumber where damping sets in, in the solution for comparison
 _LAST = 0.05  # of the duration, whose largest |K| stands for what is left
-_FLOATS = 0.01  # difference of displaced and body's mass that is worth a note
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +46,7 @@ def hybrid_bem(
     control_radius: float | None = None,
     resolution: float = 1.0,
     order: int = 4,
-    outer: Literal["compressed"] = "compressed",
+    outer: Literal["compressed", "green"] = "compressed",
     rho: float = SEA_WATER,
     g: float = GRAVITY,
 ) -> Retardation:
@@ -73,8 +68,10 @@ def hybrid_bem(
         Panels per length, 1 for the default.
     order : int
         Nodes per side of a panel, 2 or more.
-    outer : {"compressed"}
-        The open sea as the passive oscillators of :mod:`ogilvie.bem.outer`.
+    outer : {"compressed", "green"}
+        The open sea as the passive oscillators of :mod:`ogilvie.bem.outer`, or paper B's method as published, by the transient
+        Green function and flat panels (:func:`ogilvie.bem.plain.plain_hybrid`): to compare with, a hundred times the work for
+        a hundredth of the accuracy. `order` - 2 flat panels go along each side of a curved one.
     rho, g : float
         kg/m3, m/s2.
 
@@ -109,73 +106,54 @@ def hybrid_bem(
     >>> [round(float(x / unit), 3) for x in (K.K[0, 2, 2], K.A_inf[2, 2])]
     [0.188, 0.5]
     """
-    _check(duration, dt, resolution, order, outer, rho, g)
-    mesh = hull if isinstance(hull, CurvedMesh) else _mesh(hull, control_radius, resolution)
-    time = np.sqrt(mesh.radius / g)
-    step = _DT * time if dt is None else dt
-    count = int(np.ceil(duration / step - 1e-9)) + 1
-    maps, defect = inner_maps(mesh, order=order)
-    sea = [outer_mode(m, _FUNCTIONS) for m in range(_MODES)]
-    parts = [_solved(inner, sea, np.array(mesh.centre) / mesh.radius, step / time, count) for inner in maps if inner.dofs]
-    return _table(parts, mesh, step * np.arange(count), rho, g, _remarks(parts, mesh, defect, _floating(hull, body, rho)))
-
-
-def _check(duration: float, dt: float | None, resolution: float, order: int, outer: str, rho: float, g: float) -> None:
-    positive = {"duration": duration, "dt": 1.0 if dt is None else dt, "rho": rho, "g": g}
-    for name, value in positive.items():
-        if not (np.isfinite(value) and value > 0.0):
-            raise InputError(f"hybrid_bem: {name} > 0 expected, {value!r} found.")
-    if dt is not None and dt > duration:
-        raise InputError(f"hybrid_bem: a time step up to the duration, {duration:g} s, expected, {dt:g} s found.")
-    if not 0.3 <= resolution <= 5.0:
-        raise InputError(f"hybrid_bem: resolution 0.3 to 5 expected, {resolution!r} found.")
-    if not 2 <= order <= 10:
-        raise InputError(f"hybrid_bem: order 2 to 10 expected, {order!r} found.")
-    if outer != "compressed":
-        raise InputError(f"hybrid_bem: outer='compressed' expected, {outer!r} found.")
-
-
-def _mesh(hull: PanelMesh, control_radius: float | None, resolution: float) -> CurvedMesh:
-    """Return curved panels, smallest at the waterline."""
-    mesh = inner_mesh(
+    if outer not in ("compressed", "green"):
+        raise InputError(f"hybrid_bem: outer: 'compressed' or 'green' expected, {outer!r} found.")
+    if outer == "green":
+        mesh = hull if isinstance(hull, CurvedMesh) else inner_mesh(hull, control_radius=control_radius)
+        flat = flat_boundary(mesh, divisions=max(1, order - 2))
+        return plain_hybrid(flat, duration=duration, dt=dt, rho=rho, g=g, points=1).retardation()
+    case = hybrid_case(
+        "hybrid_bem",
         hull,
+        duration=duration,
+        dt=dt,
         control_radius=control_radius,
-        size=_SIZE / resolution * default_size(hull),
-        rows=max(3, round(_ROWS * resolution)),
-        depth=max(2, round(_DEPTH * resolution)),
+        resolution=resolution,
+        order=order,
+        rho=rho,
+        g=g,
     )
-    for _ in range(2 if resolution >= _FINE else 1):
-        mesh = split_at_waterline(mesh)
-    return mesh
+    maps, defect = inner_maps(case.mesh, order=order)
+    parts = [_solved(inner, case) for inner in maps if inner.dofs]
+    return _table(parts, case, _remarks(parts, case.mesh, defect, floating(hull, body, rho)))
 
 
-def _solved(inner: InnerMap, sea: list[Any], centre: Array, dt: float, count: int) -> _Part:
+def _solved(inner: InnerMap, case: HybridCase) -> _Part:
     """Return the solution of one class and the one for comparison."""
-    system = coupled_system(inner, sea, depth_functions, centre=centre)
-    response = impulse_response(system.stiffness, system.dampers, system.forcing, dt=dt, count=count, late=short_waves(system))
-    mean = coupled_system(inner, sea, depth_functions, centre=centre, reciprocity="mean")
-    late = short_waves(mean, limit=_OTHER_LIMIT * wavenumber_limit(inner.nodes))
-    other = impulse_response(mean.stiffness, mean.dampers, mean.forcing, dt=dt, count=count, late=late)
+    dt = case.step / case.time
+    system, mean = case.system(inner), case.system(inner, "mean")
+    late = short_waves(system), short_waves(mean, limit=_OTHER_LIMIT * wavenumber_limit(inner.nodes))
+    response, other = (
+        impulse_response(s.stiffness, s.dampers, s.forcing, dt=dt, count=case.count, late=damping)
+        for s, damping in zip((system, mean), late, strict=True)
+    )
     return _Part(inner.dofs, system, response, other)
 
 
-def _table(parts: list[_Part], mesh: CurvedMesh, t: Array, rho: float, g: float, notes: tuple[str, ...]) -> Retardation:
+def _table(parts: list[_Part], case: HybridCase, notes: tuple[str, ...]) -> Retardation:
     """Return SI values of all dofs."""
+    t, mesh = case.t, case.mesh
     K, other, A = np.zeros((len(t), 6, 6)), np.zeros((len(t), 6, 6)), np.zeros((6, 6))
     for part in parts:
-        at = np.ix_(part.dofs, part.dofs)
-        A[at] = part.system.added_mass
-        for i, j in np.ndindex(len(part.dofs), len(part.dofs)):
-            K[:, part.dofs[i], part.dofs[j]] = part.response.K[:, i, j]
-            other[:, part.dofs[i], part.dofs[j]] = part.other.K[:, i, j]
-    arm = np.where(np.arange(6) < 3, 1.0, mesh.radius)
-    unit = rho * mesh.radius**2 * np.outer(arm, arm)
+        i, j = np.ix_(part.dofs, part.dofs)
+        A[i, j], K[:, i, j], other[:, i, j] = part.system.added_mass, part.response.K, part.other.K
+    unit = case.rho * mesh.radius**2 * np.outer(case.arm, case.arm)
     peak = np.abs(K).max(axis=0)
     scale = np.where(peak > 1e-9 * np.sqrt(np.outer(np.diag(peak), np.diag(peak))), peak, np.nan)
     last = np.abs(K[t >= (1.0 - _LAST) * t[-1]]).max(axis=0)
     return Retardation(
         t,
-        g * unit * K,
+        case.g * unit * K,
         mesh.radius * unit * A,
         truncation_error=last / scale,
         discretisation_error=np.abs(other - K).max(axis=0) / scale,
@@ -195,13 +173,3 @@ def _remarks(parts: list[_Part], mesh: CurvedMesh, defect: float, floating: list
     if lowest < -1e-9:
         notes.append(f"a negative eigenvalue of the stiffness, {lowest:.1e} of the largest, was set to zero.")
     return (*notes, *floating)
-
-
-def _floating(hull: PanelMesh | CurvedMesh, body: RigidBody | None, rho: float) -> list[str]:
-    """Return a note where the body does not float at this draught."""
-    if body is None or isinstance(hull, CurvedMesh):
-        return []
-    displaced = rho * hull.immersed().volume
-    if abs(displaced / body.mass - 1.0) < _FLOATS:
-        return []
-    return [f"the hull displaces {displaced:.4g} kg at z = 0, the mass of the body is {body.mass:.4g} kg."]

@@ -1,15 +1,14 @@
 """Added mass, damping and wave forces of a hull from the time domain: no irregular frequencies, any frequency after one run."""
 
 import warnings
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ogilvie.bem import hybrid
-from ogilvie.bem.coupled import coupled_system
-from ogilvie.bem.inner import inner_maps
-from ogilvie.bem.outer import depth_functions, outer_mode
+from ogilvie.bem.hybrid_case import HybridCase, hybrid_case
+from ogilvie.bem.inner import InnerMap, inner_maps
 from ogilvie.bem.short_waves import short_waves, wavenumber_limit
 from ogilvie.bem.stepping import impulse_response
 from ogilvie.bem.wave_force import wave_force
@@ -25,8 +24,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
 Array = NDArray[Any]
-
-_DURATION = 40.0  # default over sqrt(control radius / g)
 
 
 def hybrid_hydro(
@@ -91,66 +88,101 @@ def hybrid_hydro(
     >>> hydro = hybrid_hydro(hemisphere(1.0), omega=[1.0, 1.6], rho=1.0, g=1.0)
     >>> hydro.attrs["source"], hydro.excitation_force.shape
     ('ogilvie hybrid_hydro', (2, 1, 6))
-    >>> round(float(hydro.added_mass[0, 2, 2] / (2 / 3 * np.pi)), 2)  # of A33 = 0.5861 at Ka = 1
-    0.59
+    >>> round(float(hydro.added_mass[0, 2, 2] / (2 / 3 * np.pi)), 3)  # exact: 0.430
+    0.430
     """
-    omega = np.sort(np.atleast_1d(np.asarray(omega, dtype=float)))
+    omega = np.unique(np.asarray(omega, dtype=float))
     direction = np.atleast_1d(np.asarray(wave_direction, dtype=float))
-    if not (omega.ndim == 1 and np.all(np.isfinite(omega)) and np.all(omega > 0.0) and len(omega)):
+    if not (len(omega) and np.all(np.isfinite(omega)) and omega[0] > 0.0):
         raise InputError("hybrid_hydro: omega: finite frequencies > 0 expected, others found.")
-    mesh = hybrid._mesh(hull, control_radius, resolution)
-    time = np.sqrt(mesh.radius / g)
-    duration = _DURATION * time if duration is None else duration
-    step = hybrid._DT * time if dt is None else dt
-    hybrid._check(duration, dt, resolution, order, "compressed", rho, g)
-    maps, _ = inner_maps(mesh, order=order)
-    resolved = float(np.sqrt(g * wavenumber_limit(maps[0].nodes) / mesh.radius))
+    case = hybrid_case(
+        "hybrid_hydro",
+        hull,
+        duration=duration,
+        dt=dt,
+        control_radius=control_radius,
+        resolution=resolution,
+        order=order,
+        rho=rho,
+        g=g,
+    )
+    maps, _ = inner_maps(case.mesh, order=order)
+    resolved = float(np.sqrt(wavenumber_limit(maps[0].nodes)) / case.time)
     if omega[-1] > resolved:
         warnings.warn(
-            f"hybrid_hydro: waves of {omega[-1]:.4g} rad/s are too short for the panels, which resolve up to {resolved:.4g} rad/s; "
-            "a higher resolution helps.",
+            f"hybrid_hydro: waves of {omega[-1]:.4g} rad/s are too short for the panels, which resolve up to {resolved:.4g} "
+            "rad/s; a higher resolution helps.",
             OgilvieWarning,
             stacklevel=2,
         )
-    sea = [outer_mode(m, hybrid._FUNCTIONS) for m in range(hybrid._MODES)]
-    count = int(np.ceil(duration / step - 1e-9)) + 1
+    parts = [_part(inner, case, omega, direction) for inner in maps if inner.dofs]
+    return _dataset(parts, case, omega, direction, hull, body, resolved)
+
+
+@dataclass(frozen=True, eq=False)
+class _Part:
+    """Results of one class of symmetry, in units of control radius and gravity."""
+
+    dofs: list[int]
+    A_inf: Array
+    A: Array
+    B: Array
+    froude_krylov: Array
+    diffraction: Array
+
+
+def _part(inner: InnerMap, case: HybridCase, omega: Array, direction: Array) -> _Part:
+    """Return added mass, damping and forces of one class."""
+    system, dt = case.system(inner), case.step / case.time
+    rate = impulse_response(
+        system.stiffness,
+        system.dampers,
+        system.forcing,
+        dt=dt,
+        count=case.count,
+        late=short_waves(system),
+        outputs=system.inputs,
+    ).K
+    K = np.einsum("in,tnj->tij", system.motions, rate, optimize=True)
+    pieces = legendre_pieces(dt * np.arange(case.count), 0.5 * (K + K.transpose(0, 2, 1)), "spline")
+    w = omega * case.time
+    K_hat = np.conj(fourier_integral(dt * np.arange(case.count), pieces, w))
+    A = system.added_mass + K_hat.imag / w[:, None, None]
+    forces = wave_force(system, rate, dt=dt, omega=w, direction=direction, centre=case.centre)
+    return _Part(inner.dofs, system.added_mass, A, K_hat.real, *forces)
+
+
+def _dataset(
+    parts: list[_Part],
+    case: HybridCase,
+    omega: Array,
+    direction: Array,
+    hull: PanelMesh,
+    body: RigidBody | None,
+    resolved: float,
+) -> "xr.Dataset":
+    """Return SI values of all dofs."""
     n_w, n_b = len(omega), len(direction)
     A, B, A_inf = np.zeros((n_w, 6, 6)), np.zeros((n_w, 6, 6)), np.zeros((6, 6))
-    parts = np.zeros((2, n_w, n_b, 6), dtype=complex)
-    for inner in (m for m in maps if m.dofs):
-        system = coupled_system(inner, sea, depth_functions, centre=np.array(mesh.centre) / mesh.radius)
-        rate = impulse_response(
-            system.stiffness,
-            system.dampers,
-            system.forcing,
-            dt=step / time,
-            count=count,
-            late=short_waves(system),
-            outputs=system.inputs,
-        ).K
-        at = np.ix_(inner.dofs, inner.dofs)
-        K = np.einsum("in,tnj->tij", system.motions, rate)
-        t = step / time * np.arange(count)
-        K_hat = np.conj(fourier_integral(t, legendre_pieces(t, 0.5 * (K + K.transpose(0, 2, 1)), "spline"), omega * time))
-        A_inf[at] = system.added_mass
-        B[:, *at], A[:, *at] = K_hat.real, system.added_mass + K_hat.imag / (omega * time)[:, None, None]
-        parts[..., inner.dofs] = wave_force(
-            system, rate, dt=step / time, omega=omega * time, direction=direction, centre=np.array(mesh.centre) / mesh.radius
-        )
-    arm = np.where(np.arange(6) < 3, 1.0, mesh.radius)
-    mass, force = rho * mesh.radius**3 * np.outer(arm, arm), rho * g * mesh.radius**2 * arm
+    froude_krylov, diffraction = np.zeros((2, n_w, n_b, 6), dtype=complex)
+    for part in parts:
+        i, j = np.ix_(part.dofs, part.dofs)
+        A_inf[i, j], A[:, i, j], B[:, i, j] = part.A_inf, part.A, part.B
+        froude_krylov[..., part.dofs], diffraction[..., part.dofs] = part.froude_krylov, part.diffraction
+    radius, mesh = case.mesh.radius, case.mesh
+    mass, force = case.rho * radius**3 * np.outer(case.arm, case.arm), case.rho * case.g * radius**2 * case.arm
     return hydro_from_arrays(
         omega=omega,
         added_mass=mass * A,
-        radiation_damping=mass / time * B,
+        radiation_damping=mass / case.time * B,
         added_mass_inf=mass * A_inf,
         wave_direction=direction,
-        froude_krylov_force=force * parts[0],
-        diffraction_force=force * parts[1],
-        hydrostatic_stiffness=None if body is None else hydrostatics(hull, body=body, rho=rho, g=g).stiffness,
+        froude_krylov_force=force * froude_krylov,
+        diffraction_force=force * diffraction,
+        hydrostatic_stiffness=None if body is None else hydrostatics(hull, body=body, rho=case.rho, g=case.g).stiffness,
         inertia_matrix=None if body is None else body.matrix,
-        rho=rho,
-        g=g,
+        rho=case.rho,
+        g=case.g,
         name=hull.name,
         source="ogilvie hybrid_hydro",
         attrs={"panels": len(mesh.part) * len(mesh.images), "symmetry": mesh.symmetry, "omega_resolved": resolved},
