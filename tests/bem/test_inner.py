@@ -7,11 +7,11 @@ from scipy.optimize import brentq
 from scipy.special import jvp, yvp
 from standing import odd_functions, still
 
-from ogilvie.bem.coupled import azimuthal_modes, control_functions, coupled_system
+from ogilvie.bem.coupled import azimuthal_modes, control_functions, coupled_system, uncoupled
 from ogilvie.bem.curved import BODY, CONTROL, FREE
 from ogilvie.bem.curved_nodes import CurvedNodes
 from ogilvie.bem.inner import inner_maps, normal_modes, unit_mesh
-from ogilvie.bem.reciprocity import reciprocal
+from ogilvie.bem.reciprocity import in_functions, reciprocal
 from ogilvie.bem.surface_modes import surface_modes
 from ogilvie.errors import InputError
 
@@ -101,7 +101,7 @@ def test_added_mass_of_the_hemisphere_at_infinite_frequency(how):
     unit = 2 / 3 * np.pi / 8
     maps, _ = inner_maps(hemisphere_in_hemisphere(**MESH), order=5)
     for inner in maps:
-        system = coupled_system(inner, [still(m, 4) for m in range(4)], odd_functions, reciprocity=how)
+        system = coupled_system(uncoupled(inner, [still(m, 4) for m in range(4)], odd_functions), reciprocity=how)
         np.testing.assert_array_equal(system.stiffness, system.stiffness.T)
         assert np.linalg.eigvalsh(system.stiffness)[0] > 0
         found = system.added_mass[0, 0] / unit
@@ -119,7 +119,8 @@ def test_reciprocal_map_is_exact_where_the_map_is_symmetric():
     symmetric = type(inner)(inner.nodes, inner.parity, inner.matrix + inner.matrix.T)
     Y, modes = np.eye((part == CONTROL).sum()), surface_modes(inner.nodes, inner.parity)[1]
     motions = normal_modes(inner.nodes)[inner.dofs] * inner.root_weight[part == BODY]
-    one, two = (reciprocal(symmetric, Y, modes, motions, smooth=len(modes), how=how) for how in ("smoother", "mean"))
+    given = in_functions(symmetric, Y, modes, motions)
+    one, two = (reciprocal(given, smooth=len(modes), how=how) for how in ("smoother", "mean"))
     for name in ("ff", "qf", "qq", "vf", "vq", "vv"):
         np.testing.assert_allclose(getattr(one, name), getattr(two, name), atol=1e-12)
     T = symmetric.matrix[np.ix_(part == BODY, part == FREE)]
@@ -168,4 +169,4 @@ def test_functions_of_the_control_surface_are_orthonormal():
 def test_control_surface_with_too_few_nodes_is_refused():
     inner = inner_maps(hemisphere_in_hemisphere(depths=1, across=1), order=1)[0][0]
     with pytest.raises(InputError, match="functions of the depth"):
-        coupled_system(inner, [still(m, 12) for m in range(2)], odd_functions)
+        uncoupled(inner, [still(m, 12) for m in range(2)], odd_functions)

@@ -6,7 +6,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ogilvie.bem.coupled import CoupledSystem, coupled_system
+from ogilvie.bem.coupled import CoupledSystem, coupled_system, uncoupled
 from ogilvie.bem.curved import CurvedMesh
 from ogilvie.bem.curved_split import split_at_waterline
 from ogilvie.bem.inner import InnerMap, inner_maps
@@ -151,9 +151,10 @@ def _mesh(hull: PanelMesh, control_radius: float | None, resolution: float) -> C
 
 def _solved(inner: InnerMap, sea: list[Any], centre: Array, dt: float, count: int) -> _Part:
     """Return the solution of one class and the one for comparison."""
-    system = coupled_system(inner, sea, depth_functions, centre=centre)
+    domains = uncoupled(inner, sea, depth_functions, centre=centre)
+    system = coupled_system(domains)
     response = impulse_response(system.stiffness, system.dampers, system.forcing, dt=dt, count=count, late=short_waves(system))
-    mean = coupled_system(inner, sea, depth_functions, centre=centre, reciprocity="mean")
+    mean = coupled_system(domains, reciprocity="mean")
     late = short_waves(mean, limit=_OTHER_LIMIT * wavenumber_limit(inner.nodes))
     other = impulse_response(mean.stiffness, mean.dampers, mean.forcing, dt=dt, count=count, late=late)
     return _Part(inner.dofs, system, response, other)
