@@ -44,7 +44,7 @@ DepthFunctions = Callable[[int, Array, int], Array]
 
 @dataclass(frozen=True, eq=False)
 class CoupledSystem:
-    """z'' + dampers dampers.T z' + stiffness z = inputs v, phi_hull = inputs.T z - instantaneous v, with Rc = g = 1.
+    """z'' + dampers dampers.T z' + stiffness z = inputs v, phi_hull = inputs.T z + instantaneous v, with Rc = g = 1.
 
     Parameters
     ----------
@@ -144,8 +144,8 @@ def uncoupled(
     return Uncoupled(inner, in_functions(inner, sea.functions, modes, motions), sea, motions, wavenumber, modes)
 
 
-def coupled_system(given: Uncoupled, *, reciprocity: Reciprocity = "smoother") -> CoupledSystem:
-    """Return the coupled system of one class of symmetry.
+def joined(given: Uncoupled, *, reciprocity: Reciprocity = "smoother") -> CoupledSystem:
+    """Return the coupled system of one class of symmetry from its two domains.
 
     Parameters
     ----------
@@ -180,6 +180,18 @@ def coupled_system(given: Uncoupled, *, reciprocity: Reciprocity = "smoother") -
     h = np.concatenate([-(T.vf.T + F.T @ V), B.T @ V]) @ T.hull.T
     instantaneous = -T.hull @ (T.vv + V.T @ V) @ T.hull.T
     return CoupledSystem(given.inner, S, D, h, instantaneous, given.motions, given.wavenumber, modes, sea.missed)
+
+
+def coupled_system(
+    inner: InnerMap,
+    outer: Sequence[OuterMode],
+    depth_functions: DepthFunctions,
+    *,
+    centre: Array | None = None,
+    reciprocity: Reciprocity = "smoother",
+) -> CoupledSystem:
+    """Return the coupled system of one class of symmetry: :func:`joined` of what :func:`uncoupled` returns."""
+    return joined(uncoupled(inner, outer, depth_functions, centre=centre), reciprocity=reciprocity)
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,7 +6,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ogilvie.bem.coupled import CoupledSystem, coupled_system, uncoupled
+from ogilvie.bem.coupled import CoupledSystem, joined, uncoupled
 from ogilvie.bem.curved import CurvedMesh
 from ogilvie.bem.curved_split import split_at_waterline
 from ogilvie.bem.inner import InnerMap, inner_maps
@@ -26,6 +26,7 @@ _DT = 0.035  # default time step over sqrt(control radius / g)
 _SIZE = 1.75  # length of panels over the mesher's default
 _ROWS, _DEPTH = 6, 3  # rows of panels on the free surface and on the control surface
 _FINE = 1.5  # resolution from which on the panels at the waterline are divided twice
+_SHARE, _SHARES = (0.15,), (0.25, 0.25)  # of a panel at the waterline that its part next to the waterline gets, once or twice
 _MODES, _FUNCTIONS = 17, 12  # azimuthal modes and depth functions of the outer domain
 _OTHER_LIMIT = 0.8  # of the wavenumber where damping sets in, in the solution for comparison
 _LAST = 0.05  # of the duration, whose largest |K| stands for what is left
@@ -144,17 +145,17 @@ def _mesh(hull: PanelMesh, control_radius: float | None, resolution: float) -> C
         rows=max(3, round(_ROWS * resolution)),
         depth=max(2, round(_DEPTH * resolution)),
     )
-    for _ in range(2 if resolution >= _FINE else 1):
-        mesh = split_at_waterline(mesh)
+    for share in _SHARE if resolution < _FINE else _SHARES:
+        mesh = split_at_waterline(mesh, share=share)
     return mesh
 
 
 def _solved(inner: InnerMap, sea: list[Any], centre: Array, dt: float, count: int) -> _Part:
     """Return the solution of one class and the one for comparison."""
     domains = uncoupled(inner, sea, depth_functions, centre=centre)
-    system = coupled_system(domains)
+    system = joined(domains)
     response = impulse_response(system.stiffness, system.dampers, system.forcing, dt=dt, count=count, late=short_waves(system))
-    mean = coupled_system(domains, reciprocity="mean")
+    mean = joined(domains, reciprocity="mean")
     late = short_waves(mean, limit=_OTHER_LIMIT * wavenumber_limit(inner.nodes))
     other = impulse_response(mean.stiffness, mean.dampers, mean.forcing, dt=dt, count=count, late=late)
     return _Part(inner.dofs, system, response, other)
