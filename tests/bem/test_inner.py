@@ -11,7 +11,7 @@ from ogilvie.bem.coupled import azimuthal_modes, control_functions, coupled_syst
 from ogilvie.bem.curved import BODY, CONTROL, FREE
 from ogilvie.bem.curved_nodes import CurvedNodes
 from ogilvie.bem.inner import inner_maps, normal_modes, unit_mesh
-from ogilvie.bem.reciprocity import reciprocal
+from ogilvie.bem.reciprocity import in_functions, reciprocal
 from ogilvie.bem.surface_modes import surface_modes
 from ogilvie.errors import InputError
 
@@ -119,7 +119,8 @@ def test_reciprocal_map_is_exact_where_the_map_is_symmetric():
     symmetric = type(inner)(inner.nodes, inner.parity, inner.matrix + inner.matrix.T)
     Y, modes = np.eye((part == CONTROL).sum()), surface_modes(inner.nodes, inner.parity)[1]
     motions = normal_modes(inner.nodes)[inner.dofs] * inner.root_weight[part == BODY]
-    one, two = (reciprocal(symmetric, Y, modes, motions, smooth=len(modes), how=how) for how in ("smoother", "mean"))
+    given = in_functions(symmetric, Y, modes, motions)
+    one, two = (reciprocal(given, smooth=len(modes), how=how) for how in ("smoother", "mean"))
     for name in ("ff", "qf", "qq", "vf", "vq", "vv"):
         np.testing.assert_allclose(getattr(one, name), getattr(two, name), atol=1e-12)
     T = symmetric.matrix[np.ix_(part == BODY, part == FREE)]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ogilvie.bem.curved import BODY, CONTROL
 from ogilvie.bem.curved_nodes import CurvedNodes, frames
 from ogilvie.bem.inner import InnerMap, normal_modes
-from ogilvie.bem.reciprocity import Reciprocity, reciprocal
+from ogilvie.bem.reciprocity import FunctionMap, Reciprocity, in_functions, reciprocal
 from ogilvie.bem.surface_modes import surface_modes
 from ogilvie.errors import ConvergenceError, InputError
 
@@ -105,15 +105,22 @@ def azimuthal_modes(parity: Array, mirrored: tuple[bool, bool], highest: int) ->
     return found
 
 
-def coupled_system(
-    inner: InnerMap,
-    outer: Sequence[OuterMode],
-    depth_functions: DepthFunctions,
-    *,
-    centre: Array | None = None,
-    reciprocity: Reciprocity = "smoother",
-) -> CoupledSystem:
-    """Return the coupled system of one class of symmetry.
+@dataclass(frozen=True, eq=False)
+class Uncoupled:
+    """Inner and outer domain of one class, ready to be joined."""
+
+    inner: InnerMap
+    map: FunctionMap
+    sea: "_Outer"
+    motions: Array
+    wavenumber: Array
+    modes: Array
+
+
+def uncoupled(
+    inner: InnerMap, outer: Sequence[OuterMode], depth_functions: DepthFunctions, *, centre: Array | None = None
+) -> Uncoupled:
+    """Return both domains of one class in functions of the hull, the control surface and the free surface.
 
     Parameters
     ----------
@@ -124,13 +131,30 @@ def coupled_system(
         (m, x, J) -> (J, n): orthonormal functions of x = -z on 0..1.
     centre : (3,) array, optional
         Of the control hemisphere from O, in control radii.
-    reciprocity : {"smoother", "mean"}
-        See :func:`ogilvie.bem.reciprocity.reciprocal`.
 
     Raises
     ------
     InputError
         Too few nodes on the control surface for the functions.
+    """
+    nodes = inner.nodes
+    sea = _outer(inner, outer, depth_functions)
+    wavenumber, modes = surface_modes(nodes, inner.parity)
+    motions = normal_modes(nodes, centre)[inner.dofs] * inner.root_weight[nodes.part == BODY]
+    return Uncoupled(inner, in_functions(inner, sea.functions, modes, motions), sea, motions, wavenumber, modes)
+
+
+def joined(given: Uncoupled, *, reciprocity: Reciprocity = "smoother") -> CoupledSystem:
+    """Return the coupled system of one class of symmetry from its two domains.
+
+    Parameters
+    ----------
+    given : Uncoupled
+    reciprocity : {"smoother", "mean"}
+        See :func:`ogilvie.bem.reciprocity.reciprocal`.
+
+    Raises
+    ------
     ConvergenceError
         N - T_qq is not positive definite.
 
@@ -142,12 +166,8 @@ def coupled_system(
         S = [[T_ff + T_fq P^-1 T_qf, -T_fq P^-1 b.T], [-b P^-1 T_qf, W^2 + b P^-1 b.T]],
         h = [-(T_fv + T_fq P^-1 T_qv); b P^-1 T_qv],   -phi_hull = -h.T z + (T_vv + T_vq P^-1 T_qv) v.
     """
-    nodes = inner.nodes
-    sea = _outer(inner, outer, depth_functions)
-    wavenumber, modes = surface_modes(nodes, inner.parity)
-    motions = normal_modes(nodes, centre)[inner.dofs] * inner.root_weight[nodes.part == BODY]
-    smooth = int(np.sum(wavenumber < _SMOOTH))
-    T = reciprocal(inner, sea.functions, modes, motions, smooth=smooth, how=reciprocity)
+    sea, modes = given.sea, given.modes
+    T = reciprocal(given.map, smooth=int(np.sum(given.wavenumber < _SMOOTH)), how=reciprocity)
     try:
         half = np.linalg.inv(np.linalg.cholesky(sea.instantaneous - T.qq))
     except np.linalg.LinAlgError:
@@ -159,7 +179,19 @@ def coupled_system(
     D = np.concatenate([np.zeros((len(modes), sea.dampers.shape[1])), sea.dampers])
     h = np.concatenate([-(T.vf.T + F.T @ V), B.T @ V]) @ T.hull.T
     instantaneous = -T.hull @ (T.vv + V.T @ V) @ T.hull.T
-    return CoupledSystem(inner, S, D, h, instantaneous, motions, wavenumber, modes, sea.missed)
+    return CoupledSystem(given.inner, S, D, h, instantaneous, given.motions, given.wavenumber, modes, sea.missed)
+
+
+def coupled_system(
+    inner: InnerMap,
+    outer: Sequence[OuterMode],
+    depth_functions: DepthFunctions,
+    *,
+    centre: Array | None = None,
+    reciprocity: Reciprocity = "smoother",
+) -> CoupledSystem:
+    """Return the coupled system of one class of symmetry: :func:`joined` of what :func:`uncoupled` returns."""
+    return joined(uncoupled(inner, outer, depth_functions, centre=centre), reciprocity=reciprocity)
 
 
 @dataclass(frozen=True, eq=False)

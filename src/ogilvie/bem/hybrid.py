@@ -6,7 +6,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ogilvie.bem.coupled import CoupledSystem
+from ogilvie.bem.coupled import CoupledSystem, joined
 from ogilvie.bem.curved import CurvedMesh
 from ogilvie.bem.hybrid_case import HybridCase, floating, hybrid_case
 from ogilvie.bem.inner import InnerMap, inner_maps
@@ -130,8 +130,8 @@ def hybrid_bem(
 
 def _solved(inner: InnerMap, case: HybridCase) -> _Part:
     """Return the solution of one class and the one for comparison."""
-    dt = case.step / case.time
-    system, mean = case.system(inner), case.system(inner, "mean")
+    dt, domains = case.step / case.time, case.domains(inner)
+    system, mean = joined(domains), joined(domains, reciprocity="mean")
     late = short_waves(system), short_waves(mean, limit=_OTHER_LIMIT * wavenumber_limit(inner.nodes))
     response, other = (
         impulse_response(s.stiffness, s.dampers, s.forcing, dt=dt, count=case.count, late=damping)

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ogilvie.bem.coupled import CoupledSystem, Reciprocity, coupled_system
+from ogilvie.bem.coupled import Uncoupled, uncoupled
 from ogilvie.bem.curved import CurvedMesh
 from ogilvie.bem.curved_split import split_at_waterline
 from ogilvie.bem.inner import InnerMap
@@ -22,6 +22,7 @@ _DT = 0.035  # default time step over sqrt(control radius / g)
 _SIZE = 1.75  # length of panels over the mesher's default
 _ROWS, _DEPTH = 6, 3  # rows of panels on the free surface and on the control surface
 _FINE = 1.5  # resolution from which on the panels at the waterline are divided twice
+_SHARE, _SHARES = (0.15,), (0.25, 0.25)  # of a panel at the waterline that its part next to the waterline gets, once or twice
 _MODES, _FUNCTIONS = 17, 12  # azimuthal modes and depth functions of the outer domain
 _FLOATS = 0.01  # difference of displaced and body's mass that is worth a note
 
@@ -69,10 +70,10 @@ class HybridCase:
         """Unit of length of each dof (6,): 1 for translations, the control radius for rotations."""
         return np.where(np.arange(6) < 3, 1.0, self.mesh.radius)
 
-    def system(self, inner: InnerMap, reciprocity: Reciprocity = "smoother") -> CoupledSystem:
-        """Return inner and outer domain together, for one class of symmetry."""
+    def domains(self, inner: InnerMap) -> Uncoupled:
+        """Return inner and outer domain of one class of symmetry, ready to be joined."""
         sea = [outer_mode(m, _FUNCTIONS) for m in range(_MODES)]
-        return coupled_system(inner, sea, depth_functions, centre=self.centre, reciprocity=reciprocity)
+        return uncoupled(inner, sea, depth_functions, centre=self.centre)
 
 
 def hybrid_case(
@@ -121,8 +122,8 @@ def curved_boundary(hull: PanelMesh, control_radius: float | None, resolution: f
         rows=max(3, round(_ROWS * resolution)),
         depth=max(2, round(_DEPTH * resolution)),
     )
-    for _ in range(2 if resolution >= _FINE else 1):
-        mesh = split_at_waterline(mesh)
+    for share in _SHARE if resolution < _FINE else _SHARES:
+        mesh = split_at_waterline(mesh, share=share)
     return mesh
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ogilvie.bem.coupled import joined
 from ogilvie.bem.hybrid_case import HybridCase, hybrid_case
 from ogilvie.bem.inner import InnerMap, inner_maps
 from ogilvie.bem.short_waves import short_waves, wavenumber_limit
@@ -133,7 +134,7 @@ class _Part:
 
 def _part(inner: InnerMap, case: HybridCase, omega: Array, direction: Array) -> _Part:
     """Return added mass, damping and forces of one class."""
-    system, dt = case.system(inner), case.step / case.time
+    system, dt = joined(case.domains(inner)), case.step / case.time
     rate = impulse_response(
         system.stiffness,
         system.dampers,

@@ -35,10 +35,30 @@ class ReciprocalMap:
     vv: Array
 
 
-def reciprocal(
-    inner: InnerMap, control: Array, surface: Array, motions: Array, *, smooth: int, how: Reciprocity = "smoother"
-) -> ReciprocalMap:
-    """Return the symmetric map.
+@dataclass(frozen=True, eq=False)
+class FunctionMap:
+    """The inner map between functions of the three parts, as the panels give it.
+
+    Parameters
+    ----------
+    matrix : (n, n) array
+        b_i.T T b_j, from smooth to rough: motions of the hull, functions of the control surface, modes of the free surface,
+        all else on the hull.
+    hull : (n_v, n_v) array
+        As in :class:`ReciprocalMap`.
+    motions, control, surface : int
+        Numbers of the first three kinds.
+    """
+
+    matrix: Array
+    hull: Array
+    motions: int
+    control: int
+    surface: int
+
+
+def in_functions(inner: InnerMap, control: Array, surface: Array, motions: Array) -> FunctionMap:
+    """Return the inner map in functions.
 
     Parameters
     ----------
@@ -49,40 +69,44 @@ def reciprocal(
         Modes of the free surface in columns, from smooth to rough.
     motions : (k, n_hull) array
         Normal velocities of the hull in the dofs of the class. All are values at nodes times sqrt(weight).
+    """
+    part, k = inner.nodes.part, len(motions)
+    hull = np.linalg.qr(motions.T, mode="complete")[0]  # the first columns span the motions
+    kinds = ((BODY, hull[:, :k]), (CONTROL, control.T), (FREE, surface), (BODY, hull[:, k:]))
+    places, right = [np.flatnonzero(part == p) for p, _ in kinds], []
+    for (_, functions), at in zip(kinds, places, strict=True):
+        right.append(inner.matrix[:, at] @ functions)
+    X = np.concatenate(right, axis=1)
+    rows = [functions.T @ X[at] for (_, functions), at in zip(kinds, places, strict=True)]
+    return FunctionMap(np.concatenate(rows), hull, k, len(control), len(surface))
+
+
+def reciprocal(given: FunctionMap, *, smooth: int, how: Reciprocity = "smoother") -> ReciprocalMap:
+    """Return the symmetric map.
+
+    Parameters
+    ----------
+    given : FunctionMap
     smooth : int
         Modes of the free surface that count as smooth.
     how : {"smoother", "mean"}
 
     Notes
     -----
-    In functions b_i ordered from smooth to rough T_ij = b_i.T T b_j and T_ji are equal for the exact map. The discrete map is
-    good for the smooth b_j, and b_i.T only weighs its result; a rough b_i is badly represented, worst at edges. So for i > j
+    T_ij = b_i.T T b_j and T_ji are equal for the exact map. The discrete map is good for a smooth b_j, b_i.T only weighs its
+    result; a rough b_i is badly represented, worst at edges. So for i > j
 
-        smoother: T_ij = T_ji := b_i.T T b_j, mean where both are rough      mean: T_ij = T_ji := (b_i.T T b_j + b_j.T T b_i)
-        / 2.
+        smoother: T_ij = T_ji := b_i.T T b_j, or the mean where both are rough,
+        mean:     T_ij = T_ji := (b_i.T T b_j + b_j.T T b_i) / 2.
 
-    Order: motions of the hull, functions of the control surface, modes of the free surface, all else on the hull. The
-    difference of the two is a measure of the error.
+    The difference of the two is a measure of the error.
     """
-    part = inner.nodes.part
-    hull, body, free, outer = _completed(motions), part == BODY, part == FREE, part == CONTROL
-    k, n_v, n_q, n_f = len(motions), len(hull), len(control), len(surface)
-    R = np.zeros((len(part), n_v + n_q + n_f))
-    v, q, f = np.r_[:k, k + n_q + n_f : n_v + n_q + n_f], np.arange(k, k + n_q), np.arange(k + n_q, k + n_q + n_f)
-    R[np.ix_(body, v)] = hull
-    R[np.ix_(outer, q)] = control.T
-    R[np.ix_(free, f)] = surface
-    T = R.T @ (inner.matrix @ R)
-    mean = 0.5 * (T + T.T)
+    k, n_q, n_f, n = given.motions, given.control, given.surface, len(given.matrix)
+    T = 0.5 * (given.matrix + given.matrix.T)
     if how == "smoother":
         edge = k + n_q + smooth
-        mean[:, :edge] = np.tril(T)[:, :edge]
-        mean = np.tril(mean) + np.tril(mean, -1).T
-    T = mean
+        T[:, :edge] = given.matrix[:, :edge]
+        T = np.tril(T) + np.tril(T, -1).T
+    v, q, f = np.r_[:k, k + n_q + n_f : n], np.arange(k, k + n_q), np.arange(k + n_q, k + n_q + n_f)
     pairs = {"ff": (f, f), "qf": (q, f), "qq": (q, q), "vf": (v, f), "vq": (v, q), "vv": (v, v)}
-    return ReciprocalMap(hull, **{name: T[np.ix_(a, b)] for name, (a, b) in pairs.items()})
-
-
-def _completed(motions: Array) -> Array:
-    """Return an orthonormal basis (n, n), in columns, whose first columns span the motions."""
-    return np.asarray(np.linalg.qr(motions.T, mode="complete")[0])
+    return ReciprocalMap(given.hull, **{name: T[np.ix_(a, b)] for name, (a, b) in pairs.items()})

@@ -14,7 +14,7 @@ Array = NDArray[Any]
 
 STRENGTH = 0.5  # of the damping over frequency, far above the limit of the wavenumber
 SHARE = 0.45  # of the wavenumber pi/h that nodes at distance h can hold: where damping sets in
-HIGHEST = 50.0  # wavenumber in 1/Rc that 12 functions of the depth let through
+HIGHEST = 60.0  # wavenumber in 1/Rc that 12 functions of the depth let through
 _POWER = 4
 _START, _RISE = 4.0, 10.0  # phase of a wave, rad, at which its damping begins, and over which it rises
 _LOWEST = 0.25  # of the limit of the wavenumber: longer waves are damped as late as this one
@@ -84,9 +84,9 @@ def short_waves(system: CoupledSystem, *, limit: float | None = None, strength: 
 
 
 def wavenumber_limit(nodes: CurvedNodes) -> float:
-    """Return kc = 0.45 pi/h, at most 50, in 1/Rc; h: largest distance of nodes across a panel of the free surface.
+    """Return kc = 0.45 pi/h, at most 60, in 1/Rc; h: largest distance of nodes across a panel of the free surface.
 
-    That is the shorter side over p. Waves of more than 50/Rc are not let through by 12 functions of the depth.
+    That is the shorter side over p. Waves of more than 60/Rc are not let through by 12 functions of the depth.
     """
     c = nodes.coefficients[nodes.mesh.part == FREE]
     t = np.linspace(-1.0, 1.0, 9)
