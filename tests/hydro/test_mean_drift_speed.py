@@ -2,6 +2,7 @@
 
 import warnings
 from itertools import pairwise
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,11 +11,13 @@ from scipy.integrate import quad
 from ogilvie.body import RigidBody
 from ogilvie.errors import InputError, OgilvieWarning
 from ogilvie.hydro import drift_maruo
+from ogilvie.hydro.bem_panels import HullPanels
 from ogilvie.hydro.capytaine import solve_bem
 from ogilvie.hydro.drift import mean_drift
 from ogilvie.hydro.drift_encounter import placed_pairs, waves_met
 from ogilvie.hydro.drift_far import amplitude
 from ogilvie.hydro.drift_inputs import checked_case, checked_dynamics
+from ogilvie.hydro.drift_panels import WholeHull
 from ogilvie.hydro.drift_run import Solver
 from ogilvie.hydro.rao import rao
 from ogilvie.mesh import shapes
@@ -97,6 +100,20 @@ def test_added_resistance_grows_linearly_at_first(ship):
         slope = (y[h] - y[-h]) / (2 * h)
         assert slope < 0.0  # more resistance with speed in head seas
         assert abs(bend[1]) < 0.3 * abs(2 * h * slope)
+
+
+def test_slope_at_rest_is_the_wave_drift_damping_of_a_slender_ship(ship):
+    """Aranha (1994), head seas: dR/dU = (omega/g) (omega dR/domega + 4 R), from drift at rest alone."""
+    hull, body = ship
+    w, h, U = 4.8, 0.05, 0.15
+    keys = {"wave_direction": [np.pi], "method": "near"}
+    rest = -drift(hull, body, omega=[w - h, w, w + h], **keys).mean_drift_momentum.values[:, 0, 0]
+    aranha = w / G * (w * (rest[2] - rest[0]) / (2 * h) + 4.0 * rest[1])
+    ahead, astern = (drift(hull, body, omega=[w], speed=u, **keys) for u in (U, -U))
+    for method in ("pressure", "momentum"):
+        high, low = (-float(d[f"mean_drift_{method}"][0, 0, 0]) for d in (ahead, astern))
+        slope = (high - low) / (2.0 * U)
+        assert slope == pytest.approx(aranha, rel=0.2)
 
 
 def test_other_end_first_is_the_mirror_image(ship):
@@ -239,6 +256,33 @@ def test_kochin_function_at_rest_is_that_of_the_sources(ball):
     np.testing.assert_allclose(scale * K, A, atol=0.016 * np.abs(A).max())
 
 
+@pytest.mark.parametrize("k", [0.8, 4.0])
+def test_a_wave_that_passes_through_the_hull_radiates_nothing(k):
+    """Green's theorem inside the hull: with the integral along the waterline K of any wave of the moving frame is zero."""
+    hull = WholeHull(HullPanels(shapes.hemisphere(1.0, panels=2000)))
+    U, b = 1.5, 2.4
+    w, q0 = np.sqrt(G * k), k * np.array([np.cos(b), np.sin(b)])
+    w_e = w - U * q0[0]
+
+    def wave(x):
+        return np.exp(k * x[:, 2] - 1j * (x[:, :2] @ q0))[None]
+
+    def flow(x, n):
+        return wave(x) * (n[:, 2] * k - 1j * (n[:, :2] @ q0))
+
+    middle = hull.waterline.middle
+    first = SimpleNamespace(
+        hull=hull, motion=np.zeros((1, 6)), wave=SimpleNamespace(speed=U, omega_e=w_e, g=G),
+        scattered_potential=wave(hull.centers), scattered_flow=flow,
+        scattered_line=(wave(middle), -1j * q0[0] * wave(middle)),
+    )  # fmt: skip
+    parts = [drift_maruo._waves(w_e, U, G, sign, 8.0, 1.0) for sign in (1.0, -1.0)]
+    qx, qy = (np.concatenate([p[i] for p in parts])[::7] for i in (1, 2))
+    K = drift_maruo.kochin(first, qx, qy)
+    alone = drift_maruo._over_hull(first, qx, qy)
+    assert np.abs(K).max() < 0.015 * np.abs(alone).max()
+
+
 # --- first order, data, refusals
 
 
@@ -267,6 +311,29 @@ def test_result_names_its_speed_and_encounter(sailing):
     assert "at 1.1 m/s" in sailing.attrs["summary"]
     assert np.isnan(sailing.mean_drift_momentum[..., 5]).all()
     assert np.isfinite(sailing.mean_drift).all()
+
+
+def test_submerged_ball_and_twin_columns():
+    """No waterline: near field and control surface agree; two waterlines: the control surface knows nothing at speed."""
+    quarter = shapes.hemisphere(1.0, panels=300).with_symmetry("xz+yz")
+    lower, n = quarter.vertices, len(quarter.vertices)
+    vertices = np.concatenate([lower, lower * [1.0, 1.0, -1.0]]) - [0.0, 0.0, 1.4]
+    ball = type(quarter)(vertices, np.concatenate([quarter.faces, quarter.faces[:, ::-1] + n]), symmetry="xz+yz")
+    found = drift(ball, None, omega=[3.0], wave_direction=[2.4], speed=0.5)
+    near, control, far = (found[f"mean_drift_{m}"].values[0, 0] for m in METHODS)
+    np.testing.assert_allclose(near, control, atol=0.02 * np.abs(near).max())
+    assert np.isfinite(far[:2]).all()
+    column = shapes.cylinder(0.4, 0.6, panels=20).with_symmetry("none")
+    twin = type(column)(
+        np.concatenate([column.vertices + [1.5, 0, 0], column.vertices - [1.5, 0, 0]]),
+        np.concatenate([column.faces, column.faces + len(column.vertices)]),
+    )
+    found = drift(twin, None, omega=[3.0], wave_direction=[2.4], speed=0.5)
+    assert np.isnan(found.mean_drift_control_surface).all()
+    assert found.mean_drift.attrs["method"] == "surge: momentum, sway: momentum, " + ", ".join(
+        f"{dof}: pressure" for dof in ("heave", "roll", "pitch", "yaw")
+    )
+    assert np.isfinite(found.mean_drift).all()
 
 
 def test_finite_depth_leaves_the_far_field_out(ship):

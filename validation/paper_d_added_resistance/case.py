@@ -208,6 +208,8 @@ def draw(data: dict[str, Any], fig: Any) -> None:
         force = data["loads"][name].series(data["sea"], t, speed=SPEEDS[1])[:, 0]
         axes[4].plot(t, -force / 1e3, color=color, lw=1, label=name)
     axes[4].set(title="added resistance in Hs 8 m, Tp 14 s at 20 knots, Newman", xlabel="t, s", ylabel="kN")
+    for axis in axes[:3]:
+        axis.set_ylim(top=1.3 * axis.get_ylim()[1])  # room for the legend
     for axis in (*axes[:3], axes[4]):
         axis.legend(frameon=False, fontsize=7)
 

@@ -94,6 +94,7 @@ def mean_drift(
         * motion_rao: the motions
         * at speed: encounter_frequency (signed), flag_slow_encounter (U omega_e/g below 1/4)
 
+        :class:`ogilvie.SlowDrift` takes the result as it is, or several of them at different speeds;
         ``hydro.assign(mean_drift=drift.mean_drift)`` puts it into a data set of the same frequencies and directions. The
         attribute `summary` tells in words how good it is.
 
@@ -107,8 +108,8 @@ def mean_drift(
     Warns
     -----
     OgilvieWarning
-        Energy out of balance by over 2 %, or the method asked for over 10 % off the far field; a body that does not float;
-        frequencies above those that the panels resolve.
+        Energy out of balance, or the method asked for off the far field, beyond the limits of the flags; a body that does not
+        float; frequencies above those that the panels resolve.
 
     Notes
     -----
@@ -119,8 +120,9 @@ def mean_drift(
     At speed `omega` is the frequency of the incident waves, and the first order is that of :func:`ogilvie.solve_bem`: the Green
     function of zero speed at the frequency of encounter, uniform flow past the hull. Near field and control surface then hold
     (d/dt - U d/dx) in place of d/dt throughout; the far field is Maruo's with the waves that a moving ship makes
-    (:mod:`ogilvie.hydro.drift_maruo`). Near field and control surface give peaks of added resistance 30 to 80 % above the far
-    field's, which is the one close to model tests (docs/theory/drift.md).
+    (:mod:`ogilvie.hydro.drift_maruo`). Near field and control surface give peaks of added resistance 40 to 90 % above the far
+    field's, which is the one close to model tests (docs/theory/drift.md). That is for slender hulls under way: slow motion of
+    blunt bodies is for :class:`ogilvie.WaveDriftDamping`.
 
     At sharp edges the velocity is infinite and its square near the edge is badly resolved by panels: there the near field is
     for comparison only, while the other two need no velocity on the hull.

@@ -105,7 +105,7 @@ def control_terms(
     beside = _momentum(waves, hull) if np.any(change != 0.0) or waves.speed != 0.0 else np.zeros((*change.shape, 6))
     terms = {
         "control": rho * through,
-        "surface": rho * _free_surface(outer, hull, waves.potential),
+        "surface": rho * _free_surface(outer, hull, waves.potential, moving=waves.speed != 0.0),
         "loop": -rho * _loop(waves, hull.waterline),
         "static": static_force(waves.motion, hull.panels.hull.moments, rotation=rotation, rho=rho, g=g),
         "waterline": strip_force(waves.elevation, waves.motion, hull.waterline, rho * g),
@@ -127,7 +127,7 @@ def _flux(x: Array, n: Array, d: Array, v: Complex) -> Complex:
     return np.asarray(out - np.stack(part, axis=-1))
 
 
-def _free_surface(outer: OnSurface, hull: WholeHull, at_hull: Complex) -> Complex:
+def _free_surface(outer: OnSurface, hull: WholeHull, at_hull: Complex, *, moving: bool) -> Complex:
     """Return the part of the still water (m, m, 6): loops for surge, sway, yaw, the ring for heave, roll, pitch.
 
     With K = K_mean + K_half and K_mean - K_half of two waves, -<grad phi phi_z> is -K_mean grad <phi^2>/2, which makes the
@@ -135,14 +135,13 @@ def _free_surface(outer: OnSurface, hull: WholeHull, at_hull: Complex) -> Comple
     """
     K, surface, line, copies = outer.K, outer.surface, hull.waterline, len(hull.panels.images)
     mean, half = 0.5 * (K[:, None] + K[None]), 0.5 * (K[:, None] - K[None])
-    moving = bool(np.any(outer.excess != 0.0))
     rim = hull.copied(surface.rim)
     outward = with_moment(rim, rim / surface.radius * np.tile(surface.d_rim, copies)[:, None])
     inner = with_moment(line.middle, line.normal * [1.0, 1.0, 0.0] * line.length[:, None])
     out = -0.5 * mean[..., None] * (integral(outer.phi[3], outer.phi[3], outward) - integral(at_hull, at_hull, inner))
     out[..., 2:5] = np.nan
     if not surface.ring_is_whole:
-        out[half != 0.0] = np.nan
+        out[(half != 0.0) | moving] = np.nan
         return np.asarray(out)
     x, phi, v = hull.copied(surface.ring), outer.phi[2], outer.v[2]
     dS = np.stack([np.ones(len(x)), x[:, 1], -x[:, 0]], axis=1) * np.tile(surface.d_ring, copies)[:, None]

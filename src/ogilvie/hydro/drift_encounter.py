@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ogilvie.hydro.bem_case import Case, entry
-from ogilvie.hydro.drift_first import Wave
+from ogilvie.hydro.drift_wave import Wave
 
 Ints = NDArray[np.int64]
 
@@ -16,7 +16,7 @@ def waves_met(case: Case, i: int) -> list[tuple[Ints, Wave]]:
 
     Notes
     -----
-    Overtaken waves are given by their conjugates, see :class:`ogilvie.hydro.drift_first.Wave`.
+    Overtaken waves are given by their conjugates, see :class:`ogilvie.hydro.drift_wave.Wave`.
     """
     omega, k, water = float(case.omega[i]), float(case.k[i]), (case.depth, case.rho, case.g, case.speed)
     met: dict[tuple[float, bool], list[int]] = {}

@@ -17,7 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ogilvie.hydro.bem_waves import profile
-from ogilvie.hydro.drift_first import FirstOrder, Wave
+from ogilvie.hydro.drift_first import FirstOrder
+from ogilvie.hydro.drift_wave import Wave
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

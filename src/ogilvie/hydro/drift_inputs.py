@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 from ogilvie.body import RigidBody
 from ogilvie.errors import InputError, OgilvieWarning
 from ogilvie.hydro.bem_case import Case, Irregular, make_case, warn_if_coarse
-from ogilvie.hydro.drift_first import Dynamics
+from ogilvie.hydro.drift_wave import Dynamics
 from ogilvie.mesh.hydrostatics import hydrostatics
 from ogilvie.mesh.panels import PanelMesh
 

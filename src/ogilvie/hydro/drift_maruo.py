@@ -32,6 +32,7 @@ Complex = NDArray[np.complex128]
 
 #: Shortest waves of the integrals, over the wavenumber of six panels to a wave: the panels' fields are much longer ones.
 _FINEST = 3.0
+_DEEP = 12.0  # wavenumber times depth of what is felt no more
 _AT_ONCE = 4e6  # panels times wave vectors
 
 
@@ -149,8 +150,10 @@ def _angle(s: float, tau: float) -> float:
 
 
 def _limit(first: FirstOrder) -> float:
-    longest = 4.0 * first.wave.omega_e**2 / first.wave.g  # where the two waves meet
-    return max(_FINEST * resolved_wavenumber(first.hull.panels.hull), longest, first.wave.k)
+    """Return the largest wavenumber: of two panels, of waves that do not reach the hull; that of the first waves at least."""
+    hull, w = first.hull.panels.hull, first.wave
+    finest = min(_FINEST * resolved_wavenumber(hull), _DEEP / -float(hull.centers[:, 2].max()))
+    return max(finest, 4.0 * w.omega_e**2 / w.g, w.k)  # where the two waves meet
 
 
 def _radius(first: FirstOrder) -> float:

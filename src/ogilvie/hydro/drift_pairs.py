@@ -10,13 +10,14 @@ from numpy.typing import NDArray
 from ogilvie.hydro.bem_case import SHALLOWEST, Case
 from ogilvie.hydro.drift_control import OnSurface, control_terms, on_surface
 from ogilvie.hydro.drift_far import far_field
-from ogilvie.hydro.drift_first import Dynamics, WaterlineRule, Wave
+from ogilvie.hydro.drift_first import WaterlineRule
 from ogilvie.hydro.drift_forms import cross_mean
 from ogilvie.hydro.drift_near import OnHull, near_terms, on_hull
 from ogilvie.hydro.drift_run import Solver
 from ogilvie.hydro.drift_second import bound_force, wavenumbers
 from ogilvie.hydro.drift_static import Rotation
 from ogilvie.hydro.drift_surface import control_surface
+from ogilvie.hydro.drift_wave import Dynamics, Wave
 from ogilvie.hydro.progress import tracked
 
 Array = NDArray[np.float64]

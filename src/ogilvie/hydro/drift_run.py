@@ -13,7 +13,7 @@ from ogilvie.hydro.capytaine import frequency_threads, green_settings, source_in
 from ogilvie.hydro.drift_control import control_drift
 from ogilvie.hydro.drift_encounter import placed, placed_pairs, waves_met
 from ogilvie.hydro.drift_far import FarField, far_field
-from ogilvie.hydro.drift_first import Dynamics, FirstOrder, WaterlineRule, Wave
+from ogilvie.hydro.drift_first import FirstOrder, WaterlineRule
 from ogilvie.hydro.drift_forms import cross_mean
 from ogilvie.hydro.drift_maruo import far_field_at_speed
 from ogilvie.hydro.drift_near import near_field
@@ -23,6 +23,7 @@ from ogilvie.hydro.drift_solve import Corrections, Fields, fields_at, flux_corre
 from ogilvie.hydro.drift_static import Rotation
 from ogilvie.hydro.drift_store import FieldStore, joined, split
 from ogilvie.hydro.drift_surface import ControlSurface, control_surface
+from ogilvie.hydro.drift_wave import Dynamics, Wave
 from ogilvie.hydro.progress import tracked
 
 Array = NDArray[np.float64]
