@@ -111,6 +111,14 @@ ONE = [
         changed(TANKER, "length = 930.0", "lenght = 930.0"),
         'mooring.lenght: unknown key; did you mean "length"? Allowed: lines,',
     ),
+    (
+        changed(SHIP, 'forward_speed = "rule"', 'solver = "time-domain"'),
+        'coefficients.solver: "time-domain" solves at rest; a vessel with speed needs forward_speed = "rule".',
+    ),
+    (
+        changed(SHIP, 'forward_speed = "rule"', 'forward_speed = "rule"\nsolver = "time-domain"\ncache = false'),
+        'coefficients.cache: only with solver = "frequency-domain". Remove it.',
+    ),
     (changed(TANKER, "length = 930.0", "table = {}"), "mooring: exactly one of [[mooring.lines]], [mooring.table]"),
 ]
 

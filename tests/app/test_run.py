@@ -179,6 +179,17 @@ def test_an_interrupted_simulation_is_reported_as_such(box_text, tmp_path, monke
     assert float(read_result(tmp_path / "a-results" / "result.nc").time[-1]) == pytest.approx(89.9)
 
 
+def test_both_panel_methods_give_the_same_ship(box_text, tmp_path):
+    """Coefficients by the time domain: heave and pitch of the same waves as by the frequency domain."""
+    found = {}
+    for solver in ("frequency-domain", "time-domain"):
+        text = box_text.replace("[memory]", f'solver = "{solver}"\n[memory]') + NO_FIGURES
+        found[solver] = run_case(parse_case(text), tmp_path / solver)
+    one, two = (f.statistics["std"].sel(dof=["heave", "pitch", "sway"]).values for f in found.values())
+    np.testing.assert_allclose(one, two, rtol=0.05)
+    assert found["time-domain"].hydro.attrs["source"] == "ogilvie hybrid_hydro"
+
+
 def test_free_decay_in_calm_water(box_text, tmp_path):
     text = re.sub(r"\[sea\].*?\[loads\]", '[sea]\nspectrum = "calm"\n[loads]', box_text, flags=re.DOTALL)
     text = text.replace("realisations = 2", "initial = { roll_deg = 8.0 }")

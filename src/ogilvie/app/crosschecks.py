@@ -1,7 +1,7 @@
 """What a case file must satisfy beyond single keys: files that exist, keys that go together, physics."""
 
 from collections.abc import Iterator
-from math import inf, pi, sqrt
+from math import inf, isfinite, pi, sqrt
 from pathlib import Path
 from typing import Any
 
@@ -87,7 +87,7 @@ def _coefficients(s: dict[str, Any], present: set[str], folder: Path) -> Iterato
     if c is None:
         return
     solver = {"omega", "periods", "omega_min", "omega_max", "omega_count", "directions_deg", "irregular_frequencies", "cache"}
-    solver |= {"forward_speed"}
+    solver |= {"forward_speed", "solver"}
     if c.file is not None:
         yield from missing_file("coefficients.file", c.file, folder, stem=True)
         for key in sorted(c.model_fields_set & solver):
@@ -95,6 +95,8 @@ def _coefficients(s: dict[str, Any], present: set[str], folder: Path) -> Iterato
         return
     if c.scale is not None:
         yield "coefficients.scale: the unit length of a WAMIT file; only with file."
+    if c.solver == "time-domain":
+        yield from _time_domain(s, c)
     ways = [key for key in ("omega", "periods") if getattr(c, key) is not None]
     if c.model_fields_set & {"omega_min", "omega_max", "omega_count"}:
         ways.append("omega_min/omega_max/omega_count")
@@ -104,6 +106,16 @@ def _coefficients(s: dict[str, Any], present: set[str], folder: Path) -> Iterato
         yield "coefficients: omega_min and omega_max expected together, one found."
     elif c.omega_min is not None and c.omega_min >= c.omega_max:
         yield f"coefficients.omega_max: {c.omega_max:g}: more than omega_min {c.omega_min:g} expected."
+
+
+def _time_domain(s: dict[str, Any], c: Any) -> Iterator[str]:
+    water, vessel = s["water"], s["vessel"]
+    if water is not None and isfinite(water.depth):
+        yield f'coefficients.solver: "time-domain" is for deep water, water.depth = {water.depth:g} m found.'
+    if vessel is not None and vessel.speed_knots > 0.0 and c.forward_speed == "panels":
+        yield 'coefficients.solver: "time-domain" solves at rest; a vessel with speed needs forward_speed = "rule".'
+    for key in sorted(c.model_fields_set & {"irregular_frequencies", "cache"}):
+        yield f'coefficients.{key}: only with solver = "frequency-domain". Remove it.'
 
 
 def _sea(s: dict[str, Any], present: set[str], folder: Path) -> Iterator[str]:

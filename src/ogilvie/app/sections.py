@@ -77,6 +77,7 @@ class Coefficients(Section):
 
     At forward speed the panel solver meets each wave at its own frequency (`forward_speed = "panels"`, ten times the work), or
     what it solved at zero speed is carried to the speed by the rule of :func:`ogilvie.at_speed` ("rule", at any speed).
+    `solver = "time-domain"` takes :func:`ogilvie.hybrid_hydro` instead: deep water, nothing is kept in the cache.
     """
 
     file: Text | None = None
@@ -89,6 +90,7 @@ class Coefficients(Section):
     directions_deg: Annotated[list[Angle], Field(min_length=1)] | None = None
     irregular_frequencies: bool = True
     forward_speed: Literal["panels", "rule"] = "panels"
+    solver: Literal["frequency-domain", "time-domain"] = "frequency-domain"
     cache: bool = True
 
 
