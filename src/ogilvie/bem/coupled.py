@@ -93,8 +93,6 @@ def azimuthal_modes(parity: Array, mirrored: tuple[bool, bool], highest: int) ->
     --------
     >>> azimuthal_modes(np.array([-1, 1]), (True, True), 6)
     [(1, False), (3, False), (5, False)]
-    >>> azimuthal_modes(np.array([1, -1]), (False, True), 2)
-    [(1, True), (2, True)]
     """
     found = []
     for m in range(highest + 1):
