@@ -7,7 +7,7 @@ gain by it; on small matrices the threads of the linear algebra only wait for ea
 import ctypes
 import os
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import AbstractContextManager, ExitStack, contextmanager
 from importlib import import_module
 
 #: Extension modules and the names under which their linear algebra sets and tells its number of threads.
@@ -49,6 +49,17 @@ def library_threads(*, openmp: str, integrals: int, algebra: int) -> Iterator[No
         for library in BLAS:
             stack.enter_context(_limited(*library, algebra))
         yield
+
+
+def algebra_threads(threads: int) -> AbstractContextManager[None]:
+    """Return a context in which the linear algebra uses so many threads.
+
+    Examples
+    --------
+    >>> with algebra_threads(1):
+    ...     pass
+    """
+    return library_threads(openmp="math", integrals=1, algebra=threads)
 
 
 @contextmanager

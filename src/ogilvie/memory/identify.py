@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ogilvie.errors import InputError, OgilvieWarning
-from ogilvie.hydro.threads import library_threads
+from ogilvie.hydro.threads import algebra_threads
 from ogilvie.memory.blocks import coupled_blocks, r_squared
 from ogilvie.memory.common_poles import condense
 from ogilvie.memory.frequency import identify_by_frequency
@@ -131,7 +131,7 @@ def identify(
     C = None if stiffness is None else check_square("stiffness", stiffness, m)
     if (M is None) != (C is None):
         raise InputError("identify: mass and stiffness belong together; give both or none.")
-    with library_threads(openmp="math", integrals=1, algebra=1):  # small matrices: threads would only wait for each other
+    with algebra_threads(1):  # small matrices: threads would only wait for each other
         if method == "oscillators":
             models, A_inf, said = identify_passive(K, blocks, r2=r2, order=order, max_order=max_order, mass=M, stiffness=C)
         elif passive:
