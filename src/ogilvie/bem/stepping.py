@@ -7,6 +7,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from ogilvie.bem.braking import Brake
 from ogilvie.bem.rational import RationalStep
 from ogilvie.errors import ConvergenceError, InputError
 
@@ -115,28 +116,21 @@ def impulse_response(
     if late is None:
         path.go_on(lambda x: _repeated(move, x, parts), count - 1)
     else:
-        shape = turn.T @ late.shape
-        path.x = move(_damped(path.x, shape, late.loss(0.0, 0.5 * h)))
+        brake = Brake(turn.T @ late.shape)
+        path.x = move(brake(path.x, late.loss(0.0, 0.5 * h)))
         first = min(int(np.ceil(late.complete / dt)), count - 1)
         for i in range(1, parts * first):
             if i % parts == 0:
-                path.record(_damped(path.x, shape, late.loss(i * h, 0.5 * h)))
-            path.x = move(_damped(path.x, shape, late.loss(i * h, h)))
-        path.b, loss = _damped(seen, shape, late.loss(first * dt, 0.5 * h)), late.loss(late.complete, h)
+                path.record(brake(path.x, late.loss(i * h, 0.5 * h)))
+            path.x = move(brake(path.x, late.loss(i * h, h)))
+        path.b, loss = brake(seen, late.loss(first * dt, 0.5 * h)), late.loss(late.complete, h)
         if len(path.K) < count:
             path.record()
-        path.go_on(lambda x: _repeated(lambda y: move(_damped(y, shape, loss)), x, parts), count - len(path.K))
+        path.go_on(lambda x: _repeated(lambda y: move(brake(y, loss)), x, parts), count - len(path.K))
     K = np.array(path.K)
     if outputs is None:
         K = 0.5 * (K + K.transpose(0, 2, 1))
     return Response(K, least, np.array(path.energy) / path.energy[0])
-
-
-def _damped(x: Array, shape: Array, loss: Array) -> Array:
-    """Return x with the velocities v + shape diag(loss) shape.T v."""
-    n = len(shape)
-    v = x[n:]
-    return np.concatenate([x[:n], v + shape @ (loss[:, None] * (shape.T @ v))])
 
 
 def _repeated(step: Callable[[Array], Array], x: Array, times: int) -> Array:
@@ -157,7 +151,7 @@ class _Path:
     def record(self, x: Array | None = None) -> None:
         """Record x, or another state than the own."""
         x = self.x if x is None else x
-        self.K.append(self.b.T @ x)
+        self.K.append(np.stack([self.b.T @ column for column in x.T], axis=1))
         self.energy.append(np.sum(x**2, axis=0))
 
     def go_on(self, step: Callable[[Array], Array], count: int) -> None:
