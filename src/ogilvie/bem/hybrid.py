@@ -17,6 +17,7 @@ from ogilvie.bem.short_waves import short_waves, wavenumber_limit
 from ogilvie.bem.stepping import Response, impulse_response
 from ogilvie.body import RigidBody
 from ogilvie.errors import InputError
+from ogilvie.hydro.threads import algebra_threads
 from ogilvie.memory.table import Retardation
 from ogilvie.mesh.panels import PanelMesh
 from ogilvie.units import GRAVITY, SEA_WATER
@@ -123,8 +124,9 @@ def hybrid_bem(
         rho=rho,
         g=g,
     )
-    maps, defect = inner_maps(case.mesh, order=order)
-    parts = [_solved(inner, case) for inner in maps if inner.dofs]
+    with algebra_threads(case.threads):
+        maps, defect = inner_maps(case.mesh, order=order)
+        parts = [_solved(inner, case) for inner in maps if inner.dofs]
     return _table(parts, case, _remarks(parts, case.mesh, defect, floating(hull, body, rho)))
 
 

@@ -16,6 +16,7 @@ from ogilvie.bem.wave_force import wave_force
 from ogilvie.body import RigidBody
 from ogilvie.errors import InputError, OgilvieWarning
 from ogilvie.hydro.schema import hydro_from_arrays
+from ogilvie.hydro.threads import algebra_threads
 from ogilvie.memory.fourier import fourier_integral, legendre_pieces
 from ogilvie.mesh.hydrostatics import hydrostatics
 from ogilvie.mesh.panels import PanelMesh
@@ -107,7 +108,8 @@ def hybrid_hydro(
         rho=rho,
         g=g,
     )
-    maps, _ = inner_maps(case.mesh, order=order)
+    with algebra_threads(case.threads):
+        maps, _ = inner_maps(case.mesh, order=order)
     resolved = float(np.sqrt(wavenumber_limit(maps[0].nodes)) / case.time)
     if omega[-1] > resolved:
         warnings.warn(
@@ -116,7 +118,8 @@ def hybrid_hydro(
             OgilvieWarning,
             stacklevel=2,
         )
-    parts = [_part(inner, case, omega, direction) for inner in maps if inner.dofs]
+    with algebra_threads(case.threads):
+        parts = [_part(inner, case, omega, direction) for inner in maps if inner.dofs]
     return _dataset(parts, case, omega, direction, hull, body, resolved)
 
 

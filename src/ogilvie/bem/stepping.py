@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ogilvie.bem.braking import Brake
 from ogilvie.bem.rational import RationalStep
 from ogilvie.errors import ConvergenceError, InputError
+from ogilvie.hydro.threads import algebra_threads
 
 Array = NDArray[Any]
 
@@ -108,29 +109,35 @@ def impulse_response(
             "the mesh of the inner domain is too coarse or distorted."
         )
     W, parts = np.sqrt(np.maximum(size, 0.0)), int(np.ceil(dt / _STEP - 1e-9))
-    h = dt / parts
-    move = RationalStep(W, turn.T @ dampers, h)
+    move = RationalStep(W, turn.T @ dampers, dt / parts)
     b = np.concatenate([np.zeros_like(inputs), turn.T @ inputs])
     seen = b if outputs is None else np.concatenate([np.zeros_like(outputs), turn.T @ outputs])
-    path = _Path(seen, b.copy())
-    if late is None:
-        path.go_on(lambda x: _repeated(move, x, parts), count - 1)
-    else:
-        brake = Brake(turn.T @ late.shape)
-        path.x = move(brake(path.x, late.loss(0.0, 0.5 * h)))
-        first = min(int(np.ceil(late.complete / dt)), count - 1)
-        for i in range(1, parts * first):
-            if i % parts == 0:
-                path.record(brake(path.x, late.loss(i * h, 0.5 * h)))
-            path.x = move(brake(path.x, late.loss(i * h, h)))
-        path.b, loss = brake(seen, late.loss(first * dt, 0.5 * h)), late.loss(late.complete, h)
-        if len(path.K) < count:
-            path.record()
-        path.go_on(lambda x: _repeated(lambda y: move(brake(y, loss)), x, parts), count - len(path.K))
+    shape = None if late is None else turn.T @ late.shape
+    with algebra_threads(1):  # a step is short: threads would only wait for each other
+        path = _Path(seen, b.copy())
+        if late is None or shape is None:
+            path.go_on(lambda x: _repeated(move, x, parts), count - 1)
+        else:
+            _go_late(path, move, late, shape, parts=parts, dt=dt, count=count)
     K = np.array(path.K)
     if outputs is None:
         K = 0.5 * (K + K.transpose(0, 2, 1))
     return Response(K, least, np.array(path.energy) / path.energy[0])
+
+
+def _go_late(path: "_Path", move: RationalStep, late: LateDamping, shape: Array, *, parts: int, dt: float, count: int) -> None:
+    """Go the whole way with damping between the steps: half before and half after each, two halves as one."""
+    brake, h, seen = Brake(shape), dt / parts, path.b
+    path.x = move(brake(path.x, late.loss(0.0, 0.5 * h)))
+    first = min(int(np.ceil(late.complete / dt)), count - 1)
+    for i in range(1, parts * first):
+        if i % parts == 0:
+            path.record(brake(path.x, late.loss(i * h, 0.5 * h)))
+        path.x = move(brake(path.x, late.loss(i * h, h)))
+    path.b, loss = brake(seen, late.loss(first * dt, 0.5 * h)), late.loss(late.complete, h)
+    if len(path.K) < count:
+        path.record()
+    path.go_on(lambda x: _repeated(lambda y: move(brake(y, loss)), x, parts), count - len(path.K))
 
 
 def _repeated(step: Callable[[Array], Array], x: Array, times: int) -> Array:
