@@ -1,6 +1,7 @@
 """Retardation functions of a hull straight from the time domain: panels inside a control hemisphere, the open sea outside."""
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Literal
 
 import numpy as np
@@ -17,7 +18,7 @@ from ogilvie.bem.short_waves import short_waves, wavenumber_limit
 from ogilvie.bem.stepping import Response, impulse_response
 from ogilvie.body import RigidBody
 from ogilvie.errors import InputError
-from ogilvie.hydro.threads import algebra_threads
+from ogilvie.hydro.threads import in_parallel
 from ogilvie.memory.table import Retardation
 from ogilvie.mesh.panels import PanelMesh
 from ogilvie.units import GRAVITY, SEA_WATER
@@ -124,13 +125,12 @@ def hybrid_bem(
         rho=rho,
         g=g,
     )
-    with algebra_threads(case.threads):
-        maps, defect = inner_maps(case.mesh, order=order)
-        parts = [_solved(inner, case) for inner in maps if inner.dofs]
+    maps, defect = inner_maps(case.mesh, order=order)
+    parts = in_parallel(partial(_solved, case), (m for m in maps if m.dofs))
     return _table(parts, case, _remarks(parts, case.mesh, defect, floating(hull, body, rho)))
 
 
-def _solved(inner: InnerMap, case: HybridCase) -> _Part:
+def _solved(case: HybridCase, inner: InnerMap) -> _Part:
     """Return the solution of one class and the one for comparison."""
     dt, domains = case.step / case.time, case.domains(inner)
     system, mean = joined(domains), joined(domains, reciprocity="mean")

@@ -14,7 +14,6 @@ from ogilvie.bem.inner_mesh import default_size, inner_mesh
 from ogilvie.bem.outer import depth_functions, outer_mode
 from ogilvie.body import RigidBody
 from ogilvie.errors import InputError
-from ogilvie.hydro.threads import available_cores
 from ogilvie.mesh.panels import PanelMesh
 
 Array = NDArray[Any]
@@ -25,7 +24,6 @@ _ROWS, _DEPTH = 6, 3  # rows of panels on the free surface and on the control su
 _FINE = 1.5  # resolution from which on the panels at the waterline are divided twice
 _SHARE, _SHARES = (0.15,), (0.25, 0.25)  # of a panel at the waterline that its part next to the waterline gets, once or twice
 _MODES, _FUNCTIONS = 17, 12  # azimuthal modes and depth functions of the outer domain
-_SMALL = 1500  # nodes up to which one thread of linear algebra is faster
 _FLOATS = 0.01  # difference of displaced and body's mass that is worth a note
 
 
@@ -71,11 +69,6 @@ class HybridCase:
     def arm(self) -> Array:
         """Unit of length of each dof (6,): 1 for translations, the control radius for rotations."""
         return np.where(np.arange(6) < 3, 1.0, self.mesh.radius)
-
-    @property
-    def threads(self) -> int:
-        """Threads of the linear algebra; those of small matrices would only wait for each other."""
-        return 1 if len(self.mesh.part) * self.order**2 <= _SMALL else available_cores()
 
     def domains(self, inner: InnerMap) -> Uncoupled:
         """Return inner and outer domain of one class of symmetry, ready to be joined."""

@@ -2,6 +2,7 @@
 
 import warnings
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from ogilvie.bem.wave_force import wave_force
 from ogilvie.body import RigidBody
 from ogilvie.errors import InputError, OgilvieWarning
 from ogilvie.hydro.schema import hydro_from_arrays
-from ogilvie.hydro.threads import algebra_threads
+from ogilvie.hydro.threads import in_parallel
 from ogilvie.memory.fourier import fourier_integral, legendre_pieces
 from ogilvie.mesh.hydrostatics import hydrostatics
 from ogilvie.mesh.panels import PanelMesh
@@ -108,8 +109,7 @@ def hybrid_hydro(
         rho=rho,
         g=g,
     )
-    with algebra_threads(case.threads):
-        maps, _ = inner_maps(case.mesh, order=order)
+    maps, _ = inner_maps(case.mesh, order=order)
     resolved = float(np.sqrt(wavenumber_limit(maps[0].nodes)) / case.time)
     if omega[-1] > resolved:
         warnings.warn(
@@ -118,8 +118,7 @@ def hybrid_hydro(
             OgilvieWarning,
             stacklevel=2,
         )
-    with algebra_threads(case.threads):
-        parts = [_part(inner, case, omega, direction) for inner in maps if inner.dofs]
+    parts = in_parallel(partial(_part, case, omega, direction), (m for m in maps if m.dofs))
     return _dataset(parts, case, omega, direction, hull, body, resolved)
 
 
@@ -135,7 +134,7 @@ class _Part:
     diffraction: Array
 
 
-def _part(inner: InnerMap, case: HybridCase, omega: Array, direction: Array) -> _Part:
+def _part(case: HybridCase, omega: Array, direction: Array, inner: InnerMap) -> _Part:
     """Return added mass, damping and forces of one class."""
     system, dt = joined(case.domains(inner)), case.step / case.time
     rate = impulse_response(

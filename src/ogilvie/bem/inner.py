@@ -1,7 +1,7 @@
 """Inner domain: what the potential on the free surface and the normal velocities elsewhere make on the whole boundary."""
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -11,6 +11,7 @@ from ogilvie.bem.curved import BODY, FREE, CurvedMesh
 from ogilvie.bem.curved_influence import Influence, check_closed, influence
 from ogilvie.bem.curved_nodes import CurvedNodes
 from ogilvie.errors import ConvergenceError
+from ogilvie.hydro.threads import in_parallel
 
 Array = NDArray[Any]
 
@@ -94,7 +95,7 @@ def inner_maps(mesh: CurvedMesh, *, order: int = 4, tolerance: float = 1e-6) -> 
     if not (np.all(np.isfinite(matrices.single)) and np.all(np.isfinite(matrices.double))):
         raise ConvergenceError("Influence matrices of the inner domain hold NaN: panels touch or cross; look at the mesh.")
     defect = check_closed(matrices)
-    return [_map(matrices, i) for i in range(len(matrices.parities))], defect
+    return in_parallel(partial(_map, matrices), range(len(matrices.parities))), defect
 
 
 def _map(matrices: Influence, index: int) -> InnerMap:

@@ -6,9 +6,14 @@ gain by it; on small matrices the threads of the linear algebra only wait for ea
 
 import ctypes
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import AbstractContextManager, ExitStack, contextmanager
 from importlib import import_module
+from typing import TypeVar
+
+Item = TypeVar("Item")
+Found = TypeVar("Found")
 
 #: Extension modules and the names under which their linear algebra sets and tells its number of threads.
 BLAS = (
@@ -60,6 +65,20 @@ def algebra_threads(threads: int) -> AbstractContextManager[None]:
     ...     pass
     """
     return library_threads(openmp="math", integrals=1, algebra=threads)
+
+
+def in_parallel(function: Callable[[Item], Found], items: Iterable[Item]) -> list[Found]:
+    """Return function(item) of all items, as many at a time as there are cores, each with one thread of linear algebra.
+
+    For work whose time is spent where the interpreter is not needed (linear algebra, compiled loops that let it go).
+
+    Examples
+    --------
+    >>> in_parallel(abs, [-1, 2])
+    [1, 2]
+    """
+    with algebra_threads(1), ThreadPoolExecutor(available_cores()) as pool:
+        return list(pool.map(function, items))
 
 
 @contextmanager
