@@ -130,3 +130,14 @@ def test_nodes_integrate_area_and_normal_points_outwards():
     nodes = CurvedNodes(whole_sphere(2), 4)
     assert 4 * nodes.weight.sum() == pytest.approx(4 * np.pi, rel=1e-7)
     np.testing.assert_allclose(nodes.normal, nodes.position, atol=2e-6)
+
+
+def test_strongly_bent_panels_are_halved_enough():
+    """Two bent sheets close together: the tangent plane in the middle of a panel says little of where the panel is."""
+    t = -np.cos(np.pi * np.arange(6) / 5)
+    u, v = np.meshgrid(t, t, indexing="ij")
+    sheet = np.stack([u + 0.3 * u * v, v, 0.9 * (1.0 - u**2) ** 2 - 0.3 * u**3], axis=-1)
+    nodes = CurvedNodes(CurvedMesh(np.array([sheet, sheet + [0.0, 0.0, 0.02]]), [FREE, FREE], 5.0), order=6)
+    rough, fine = (influence(nodes, tolerance=tolerance) for tolerance in (1e-6, 1e-11))
+    assert np.abs(rough.double - fine.double).max() < 2e-4
+    assert np.abs(rough.single - fine.single).max() < 2e-4

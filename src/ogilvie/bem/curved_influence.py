@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ogilvie.bem.curved import PARTS, CurvedMesh
 from ogilvie.bem.curved_kernel import add_rule, near_moments, reach, self_moments
-from ogilvie.bem.curved_nodes import CurvedNodes, frames
+from ogilvie.bem.curved_nodes import CurvedNodes, bends, frames
 from ogilvie.errors import InputError
 
 Array = NDArray[Any]
@@ -92,7 +92,7 @@ def influence(nodes: CurvedNodes, *, tolerance: float = 1e-6) -> Influence:
     inner_gauss, inner_weight = legendre.leggauss(near + 2 + int(-math.log10(tolerance) / 2))
     centre = np.stack([f[:, 0, 0] for f in frames(nodes.coefficients, np.zeros(1), np.zeros(1))[:3]], axis=1)
     S, D = _influence(
-        nodes.coefficients, centre, nodes.position, nodes.abscissae, nodes.to_lagrange, images, signs,
+        nodes.coefficients, centre, bends(nodes.coefficients), nodes.position, nodes.abscissae, nodes.to_lagrange, images, signs,
         rules[0].points, rules[0].weight, rules[0].P, rules[0].least,
         rules[1].points, rules[1].weight, rules[1].P, rules[1].least,
         gauss, weight, least_ellipse(near, p, tolerance), inner_gauss, inner_weight,
@@ -118,7 +118,7 @@ class _Rule:
 
 @njit(cache=True, nogil=True, parallel=True)
 def _influence(
-    c: Array, centre: Array, position: Array, abscissae: Array, V: Array, images: Array, signs: Array,
+    c: Array, centre: Array, bend: Array, position: Array, abscissae: Array, V: Array, images: Array, signs: Array,
     y1: Array, w1: Array, P1: Array, least1: float, y2: Array, w2: Array, P2: Array, least2: float,
     gauss: Array, weight: Array, least: float, inner_gauss: Array, inner_weight: Array,
 ) -> tuple[Array, Array]:  # fmt: skip
@@ -138,14 +138,14 @@ def _influence(
                     k = i - own * p * p
                     self_moments(c[panel], abscissae[k // p], abscissae[k % p], inner_gauss, inner_weight, s, d)
                 else:
-                    in_u, in_v, _ = reach(x, centre[panel], 1.0, 1.0)
+                    in_u, in_v, _ = reach(x, centre[panel], 1.0, 1.0, bend[panel])
                     size = min(in_u, in_v)
                     if size >= least1:
                         add_rule(y1[panel], x, w1, P1, P1, s, d)
                     elif size >= least2:
                         add_rule(y2[panel], x, w2, P2, P2, s, d)
                     else:
-                        near_moments(c[panel], x, gauss, weight, least, s, d)
+                        near_moments(c[panel], x, bend[panel], gauss, weight, least, s, d)
                 _spread(s, V, t, signs, m, i, panel, S)
                 _spread(d, V, t, signs, m, i, panel, D)
     return S, D

@@ -128,8 +128,12 @@ def ellipse(offset: float, apart: float) -> float:
 
 
 @njit(cache=True, nogil=True)
-def reach(x: Array, y: Array, hu: float, hv: float) -> tuple[float, float, float]:
-    """Return ellipse sizes in u and v of a box of half sides hu, hv with the frame y (3, 3) in its middle; its slenderness."""
+def reach(x: Array, y: Array, hu: float, hv: float, bend: Array) -> tuple[float, float, float]:
+    """Return ellipse sizes in u and v of a box of half sides hu, hv with the frame y (3, 3) in its middle; its slenderness.
+
+    The box is taken as plane, and larger by what it is off its tangent plane: bend holds the largest |x_uu|, |x_uv|, |x_vv|.
+    """
+    off_u, off_v = 0.5 * hu * (bend[0] * hu + bend[1] * hv), 0.5 * hv * (bend[1] * hu + bend[2] * hv)
     lu = math.sqrt(y[1, 0] ** 2 + y[1, 1] ** 2 + y[1, 2] ** 2)
     lv = math.sqrt(y[2, 0] ** 2 + y[2, 1] ** 2 + y[2, 2] ** 2)
     a = b = skew = square = 0.0
@@ -140,14 +144,16 @@ def reach(x: Array, y: Array, hu: float, hv: float) -> tuple[float, float, float
         skew += y[1, d] * y[2, d] / (lu * lv)
         square += r * r
     side_u, side_v, skew = 1.1 * lu * hu, 1.1 * lv * hv, abs(skew)
+    slender = (lu * hu + off_u) / (lv * hv + off_v)
+    side_u, side_v = max(side_u, lu * hu + off_u + off_v), max(side_v, lv * hv + off_u + off_v)
     in_u, in_v = max(abs(a) - skew * side_v, 0.0), max(abs(b) - skew * side_u, 0.0)
     across_u = max(math.sqrt(max(square - a * a, 0.0)) - side_v, 0.0)
     across_v = max(math.sqrt(max(square - b * b, 0.0)) - side_u, 0.0)
-    return ellipse(in_u / side_u, across_u / side_u), ellipse(in_v / side_v, across_v / side_v), side_u / side_v
+    return ellipse(in_u / side_u, across_u / side_u), ellipse(in_v / side_v, across_v / side_v), slender
 
 
 @njit(cache=True, nogil=True)
-def near_moments(c: Array, x: Array, gauss: Array, weight: Array, least: float, S: Array, D: Array) -> None:
+def near_moments(c: Array, x: Array, bend: Array, gauss: Array, weight: Array, least: float, S: Array, D: Array) -> None:
     """Add the moments at x by halving boxes until both ellipse sizes are `least`; gauss, weight (n,) is the rule of a box."""
     n, q, p = gauss.size, c.shape[0], S.shape[0]
     stack = np.empty((2 * DEEPEST, 4))
@@ -161,7 +167,7 @@ def near_moments(c: Array, x: Array, gauss: Array, weight: Array, least: float, 
         count -= 1
         uc, hu, vc, hv = stack[count, 0], stack[count, 1], stack[count, 2], stack[count, 3]
         frame(c, uc, vc, T, y)
-        in_u, in_v, slender = reach(x, y, hu, hv)
+        in_u, in_v, slender = reach(x, y, hu, hv, bend)
         if min(in_u, in_v) < least and hu * hv > 2.0**-DEEPEST and count < 2 * DEEPEST - 2:
             for side in (-1.0, 1.0):
                 stack[count, 0], stack[count, 1], stack[count, 2], stack[count, 3] = uc, hu, vc, hv

@@ -108,3 +108,27 @@ def frames(coefficients: Array, u: Array, v: Array) -> tuple[Array, Array, Array
     half, half_d = (np.einsum("nkld,jl->nkjd", coefficients, T, optimize=True) for T in (Tv, dTv))
     x, xu, xv = (np.einsum("ik,nkjd->nijd", T, h, optimize=True) for T, h in ((Tu, half), (dTu, half), (Tu, half_d)))
     return x, xu, xv, np.cross(xu, xv)
+
+
+def bends(coefficients: Array) -> Array:
+    """Return the largest |x_uu|, |x_uv| and |x_vv| of panels (n, q, q, 3) on a grid, (n, 3).
+
+    Examples
+    --------
+    >>> flat = np.zeros((1, 3, 3, 3))
+    >>> flat[0, 1, 0, 0] = flat[0, 0, 1, 1] = 1.0  # x = u, y = v
+    >>> flat[0, 2, 0, 2] = 0.5  # z = u^2 - 1/2
+    >>> bends(flat).tolist()
+    [[2.0, 0.0, 0.0]]
+    """
+    q = coefficients.shape[1]
+    grid = np.cos(np.pi * np.arange(2 * q + 1) / (2 * q))
+    bases = [chebyshev.chebvander(grid, q - 1)]
+    for order in (1, 2):
+        derivative = np.zeros((q, q))
+        if q > order:
+            derivative[: q - order] = chebyshev.chebder(np.eye(q), order)
+        bases.append(bases[0] @ derivative)
+    pairs = ((2, 0), (1, 1), (0, 2))
+    values = [np.einsum("ik,jl,nkld->nijd", bases[a], bases[b], coefficients, optimize=True) for a, b in pairs]
+    return np.stack([np.linalg.norm(x, axis=-1).max(axis=(1, 2)) for x in values], axis=1)
