@@ -91,8 +91,9 @@ def influence(nodes: CurvedNodes, *, tolerance: float = 1e-6) -> Influence:
     gauss, weight = legendre.leggauss(near)
     inner_gauss, inner_weight = legendre.leggauss(near + 2 + int(-math.log10(tolerance) / 2))
     centre = np.stack([f[:, 0, 0] for f in frames(nodes.coefficients, np.zeros(1), np.zeros(1))[:3]], axis=1)
+    bend = bends(nodes.coefficients)
     S, D = _influence(
-        nodes.coefficients, centre, bends(nodes.coefficients), nodes.position, nodes.abscissae, nodes.to_lagrange, images, signs,
+        nodes.coefficients, centre, bend, nodes.position, nodes.abscissae, nodes.to_lagrange, images, signs,
         rules[0].points, rules[0].weight, rules[0].P, rules[0].least,
         rules[1].points, rules[1].weight, rules[1].P, rules[1].least,
         gauss, weight, least_ellipse(near, p, tolerance), inner_gauss, inner_weight,

@@ -159,7 +159,7 @@ def _table(parts: list[_Part], case: HybridCase, notes: tuple[str, ...]) -> Reta
         mesh.radius * unit * A,
         truncation_error=last / scale,
         discretisation_error=np.abs(other - K).max(axis=0) / scale,
-        source=f"hybrid time-domain panel method, {len(mesh.part)} curved panels, control radius {mesh.radius:.4g} m",
+        source=case.source,
         notes=notes,
     )
 

@@ -70,6 +70,11 @@ class HybridCase:
         """Unit of length of each dof (6,): 1 for translations, the control radius for rotations."""
         return np.where(np.arange(6) < 3, 1.0, self.mesh.radius)
 
+    @property
+    def source(self) -> str:
+        """The method, in words."""
+        return f"hybrid time-domain panel method, {len(self.mesh.part)} curved panels, control radius {self.mesh.radius:.4g} m"
+
     def domains(self, inner: InnerMap) -> Uncoupled:
         """Return inner and outer domain of one class of symmetry, ready to be joined."""
         sea = [outer_mode(m, _FUNCTIONS) for m in range(_MODES)]

@@ -1,23 +1,16 @@
 """Added mass, damping and wave forces of a hull from the time domain: no irregular frequencies, any frequency after one run."""
 
 import warnings
-from dataclasses import dataclass
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ogilvie.bem.coupled import joined
-from ogilvie.bem.hybrid_case import HybridCase, hybrid_case
-from ogilvie.bem.inner import InnerMap, inner_maps
-from ogilvie.bem.short_waves import short_waves, wavenumber_limit
-from ogilvie.bem.stepping import impulse_response
+from ogilvie.bem.impulses import Impulses, impulses
 from ogilvie.bem.wave_force import wave_force
 from ogilvie.body import RigidBody
 from ogilvie.errors import InputError, OgilvieWarning
 from ogilvie.hydro.schema import hydro_from_arrays
-from ogilvie.hydro.threads import in_parallel
 from ogilvie.memory.fourier import fourier_integral, legendre_pieces
 from ogilvie.mesh.hydrostatics import hydrostatics
 from ogilvie.mesh.panels import PanelMesh
@@ -98,8 +91,7 @@ def hybrid_hydro(
     direction = np.atleast_1d(np.asarray(wave_direction, dtype=float))
     if not (len(omega) and np.all(np.isfinite(omega)) and omega[0] > 0.0):
         raise InputError("hybrid_hydro: omega: finite frequencies > 0 expected, others found.")
-    case = hybrid_case(
-        "hybrid_hydro",
+    found = impulses(
         hull,
         duration=duration,
         dt=dt,
@@ -108,85 +100,49 @@ def hybrid_hydro(
         order=order,
         rho=rho,
         g=g,
+        caller="hybrid_hydro",
     )
-    maps, _ = inner_maps(case.mesh, order=order)
-    resolved = float(np.sqrt(wavenumber_limit(maps[0].nodes)) / case.time)
-    if omega[-1] > resolved:
+    if omega[-1] > found.resolved:
         warnings.warn(
-            f"hybrid_hydro: waves of {omega[-1]:.4g} rad/s are too short for the panels, which resolve up to {resolved:.4g} "
-            "rad/s; a higher resolution helps.",
+            f"hybrid_hydro: waves of {omega[-1]:.4g} rad/s are too short for the panels, which resolve up to "
+            f"{found.resolved:.4g} rad/s; a higher resolution helps.",
             OgilvieWarning,
             stacklevel=2,
         )
-    parts = in_parallel(partial(_part, case, omega, direction), (m for m in maps if m.dofs))
-    return _dataset(parts, case, omega, direction, hull, body, resolved)
+    return hydro_of(found, hull, body, omega=omega, wave_direction=direction)
 
 
-@dataclass(frozen=True, eq=False)
-class _Part:
-    """Results of one class of symmetry, in units of control radius and gravity."""
-
-    dofs: list[int]
-    A_inf: Array
-    A: Array
-    B: Array
-    froude_krylov: Array
-    diffraction: Array
-
-
-def _part(case: HybridCase, omega: Array, direction: Array, inner: InnerMap) -> _Part:
-    """Return added mass, damping and forces of one class."""
-    system, dt = joined(case.domains(inner)), case.step / case.time
-    rate = impulse_response(
-        system.stiffness,
-        system.dampers,
-        system.forcing,
-        dt=dt,
-        count=case.count,
-        late=short_waves(system),
-        outputs=system.inputs,
-    ).K
-    K = np.einsum("in,tnj->tij", system.motions, rate, optimize=True)
-    pieces = legendre_pieces(dt * np.arange(case.count), 0.5 * (K + K.transpose(0, 2, 1)), "spline")
-    w = omega * case.time
-    K_hat = np.conj(fourier_integral(dt * np.arange(case.count), pieces, w))
-    A = system.added_mass + K_hat.imag / w[:, None, None]
-    forces = wave_force(system, rate, dt=dt, omega=w, direction=direction, centre=case.centre)
-    return _Part(inner.dofs, system.added_mass, A, K_hat.real, *forces)
-
-
-def _dataset(
-    parts: list[_Part],
-    case: HybridCase,
-    omega: Array,
-    direction: Array,
-    hull: PanelMesh,
-    body: RigidBody | None,
-    resolved: float,
+def hydro_of(
+    found: Impulses, hull: PanelMesh, body: RigidBody | None = None, *, omega: Array, wave_direction: Array
 ) -> "xr.Dataset":
-    """Return SI values of all dofs."""
-    n_w, n_b = len(omega), len(direction)
+    """Return the data of :func:`hybrid_hydro` from impulse responses that are there; omega ascending and positive."""
+    case, n_w, n_b = found.case, len(omega), len(wave_direction)
+    w, t = omega * case.time, case.t / case.time
     A, B, A_inf = np.zeros((n_w, 6, 6)), np.zeros((n_w, 6, 6)), np.zeros((6, 6))
-    froude_krylov, diffraction = np.zeros((2, n_w, n_b, 6), dtype=complex)
-    for part in parts:
+    forces = np.zeros((2, n_w, n_b, 6), dtype=complex)
+    for part in found.parts:
         i, j = np.ix_(part.dofs, part.dofs)
-        A_inf[i, j], A[:, i, j], B[:, i, j] = part.A_inf, part.A, part.B
-        froude_krylov[..., part.dofs], diffraction[..., part.dofs] = part.froude_krylov, part.diffraction
-    radius, mesh = case.mesh.radius, case.mesh
-    mass, force = case.rho * radius**3 * np.outer(case.arm, case.arm), case.rho * case.g * radius**2 * case.arm
+        K_hat = np.conj(fourier_integral(t, legendre_pieces(t, part.K, "spline"), w))
+        A_inf[i, j], B[:, i, j] = part.system.added_mass, K_hat.real
+        A[:, i, j] = part.system.added_mass + K_hat.imag / w[:, None, None]
+        forces[..., part.dofs] = wave_force(
+            part.system, part.rate, dt=float(t[1]), omega=w, direction=wave_direction, centre=case.centre
+        )
+    mesh, arm = case.mesh, case.arm
+    mass, force = case.rho * mesh.radius**3 * np.outer(arm, arm), case.rho * case.g * mesh.radius**2 * arm
     return hydro_from_arrays(
         omega=omega,
         added_mass=mass * A,
         radiation_damping=mass / case.time * B,
         added_mass_inf=mass * A_inf,
-        wave_direction=direction,
-        froude_krylov_force=force * froude_krylov,
-        diffraction_force=force * diffraction,
+        wave_direction=wave_direction,
+        froude_krylov_force=force * forces[0],
+        diffraction_force=force * forces[1],
         hydrostatic_stiffness=None if body is None else hydrostatics(hull, body=body, rho=case.rho, g=case.g).stiffness,
         inertia_matrix=None if body is None else body.matrix,
         rho=case.rho,
         g=case.g,
         name=hull.name,
         source="ogilvie hybrid_hydro",
-        attrs={"panels": len(mesh.part) * len(mesh.images), "symmetry": mesh.symmetry, "omega_resolved": resolved},
+        attrs={"panels": len(mesh.part) * len(mesh.images), "symmetry": mesh.symmetry, "omega_resolved": found.resolved},
     )
