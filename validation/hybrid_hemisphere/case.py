@@ -7,12 +7,13 @@ from typing import Any
 import numpy as np
 
 import ogilvie as og
-from ogilvie.bem import hybrid
 from ogilvie.bem.coupled import coupled_system
 from ogilvie.bem.curved import CurvedMesh
+from ogilvie.bem.curved_split import split_at_waterline
 from ogilvie.bem.hybrid import hybrid_bem
 from ogilvie.bem.hybrid_hydro import hybrid_hydro
 from ogilvie.bem.inner import inner_maps
+from ogilvie.bem.inner_mesh import default_size, inner_mesh
 from ogilvie.bem.jitter import jittered
 from ogilvie.bem.outer import depth_functions, outer_mode
 from ogilvie.bem.short_waves import short_waves
@@ -41,6 +42,7 @@ ALLOWED_CURVES = (0.02, 0.05, 0.1, 0.15, 0.02, 0.15)  # % of the largest value
 SWEEP = np.arange(2.40, 2.721, 0.02)  # Ka through the irregular frequency of heave, 2.56
 PANELS = 600  # of the hull for the frequency-domain code
 LATE, LAST, COARSE = 300.0, 1000.0, 0.5
+MODES, FUNCTIONS = 17, 12  # of the outer domain
 
 
 def run(shared: Path | None) -> tuple[list[dict[str, Any]], dict[str, Any]]:
@@ -134,8 +136,8 @@ def compared(data: dict[str, Any]) -> list[dict[str, Any]]:
 
 
 def meshes() -> dict[str, tuple[CurvedMesh, int]]:
-    """Return the panels of the call, moved or not, of hemisphere and box, with the nodes per side."""
-    sphere, box = hybrid._mesh(og.shapes.hemisphere(1.0), None, 1.0), hybrid._mesh(og.shapes.box(4.0, 1.0, 0.5), None, 0.7)
+    """Return panels as the call makes them of hemisphere and (fewer) box, moved or not, with the nodes per side."""
+    sphere, box = boundary(og.shapes.hemisphere(1.0), 6, 3, 1.0), boundary(og.shapes.box(4.0, 1.0, 0.5), 4, 2, 0.7)
     return {
         "hemisphere": (sphere, 4),
         "hemisphere, corners moved": (jittered(sphere, 0.4), 4),
@@ -144,10 +146,15 @@ def meshes() -> dict[str, tuple[CurvedMesh, int]]:
     }
 
 
+def boundary(hull: og.PanelMesh, rows: int, depth: int, resolution: float) -> CurvedMesh:
+    """Return curved panels, divided at the waterline."""
+    return split_at_waterline(inner_mesh(hull, size=1.75 / resolution * default_size(hull), rows=rows, depth=depth))
+
+
 def remains(mesh: CurvedMesh, order: int) -> dict[str, Any]:
     """Return K of heave and surge to t = 1000, energies, and the largest real part of an eigenvalue of the motion."""
     maps, _ = inner_maps(mesh, order=order)
-    sea, time = [outer_mode(m, hybrid._FUNCTIONS) for m in range(hybrid._MODES)], np.sqrt(mesh.radius)
+    sea, time = [outer_mode(m, FUNCTIONS) for m in range(MODES)], np.sqrt(mesh.radius)
     K, energy, growth, nodes = [], [], [], len(mesh.images) * len(maps[0].nodes.weight)
     for inner in (m for m in maps if {0, 2} & set(m.dofs)):
         system = coupled_system(inner, sea, depth_functions, centre=np.array(mesh.centre) / mesh.radius)
