@@ -1,47 +1,13 @@
-"""Boundaries with their inner corners moved at random: for what must not depend on the panels."""
+"""Boundaries with their inner corners moved at random."""
 
 from collections.abc import Callable
-from dataclasses import replace
 
-import numpy as np
 import pytest
 
-from ogilvie.bem.curved import CONTROL, FREE, CurvedMesh
-from ogilvie.mesh.chebyshev import chebyshev_points
-
-
-def _jittered(mesh: CurvedMesh, amount: float = 0.4, *, seed: int = 0) -> CurvedMesh:
-    """Corners inside the free surface and the control surface moved by up to `amount` times half the shortest side there.
-
-    Panels follow by bilinear functions of u and v, so that neighbours keep their common sides; those of the control surface
-    are put back on the sphere. Corners on the waterline, the circle and planes of symmetry stay.
-    """
-    points, rng = mesh.points.copy(), np.random.default_rng(seed)
-    h = 0.5 * (1.0 + chebyshev_points(mesh.degree))
-    hat = np.stack([np.outer(a, b) for a in (1 - h, h) for b in (1 - h, h)])  # (4, q, q)
-    for part in (FREE, CONTROL):
-        here = np.flatnonzero(mesh.part == part)
-        corners = points[here][:, [0, 0, -1, -1], [0, -1, 0, -1]]  # (n, 4, 3)
-        key = np.round(corners / (1e-7 * mesh.radius)).astype(np.int64).reshape(-1, 3)
-        _, index, count = np.unique(key, axis=0, return_inverse=True, return_counts=True)
-        index = index.ravel()
-        side = [np.linalg.norm(corners[:, a] - corners[:, b], axis=1) for a, b in ((0, 1), (0, 2), (3, 1), (3, 2))]
-        local = np.full(len(count), np.inf)
-        np.minimum.at(local, index, np.repeat(np.min(side, axis=0), 4))
-        direction = rng.normal(size=(len(count), 3)) * [1.0, 1.0, 0.0 if part == FREE else 1.0]
-        move = amount * 0.5 * local[:, None] * direction / np.linalg.norm(direction, axis=1, keepdims=True)
-        place = np.zeros((len(count), 3))
-        place[index] = corners.reshape(-1, 3)
-        fixed = count < 3  # on a border, or where only two panels meet
-        fixed |= np.any(np.abs(place[:, :2]) < 1e-9 * mesh.radius, axis=1) if mesh.symmetry != "none" else False
-        fixed |= np.abs(place[:, 2]) < 1e-9 * mesh.radius if part == CONTROL else False
-        move[fixed] = 0.0
-        points[here] += np.einsum("cuv,nck->nuvk", hat, move[index].reshape(-1, 4, 3))
-        if part == CONTROL:
-            points[here] *= mesh.radius / np.linalg.norm(points[here], axis=-1, keepdims=True)
-    return replace(mesh, points=points)
+from ogilvie.bem.curved import CurvedMesh
+from ogilvie.bem.jitter import jittered as move_corners
 
 
 @pytest.fixture(scope="session")
 def jittered() -> Callable[..., CurvedMesh]:
-    return _jittered
+    return move_corners
