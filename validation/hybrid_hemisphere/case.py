@@ -9,11 +9,10 @@ import numpy as np
 import ogilvie as og
 from ogilvie.bem.coupled import coupled_system
 from ogilvie.bem.curved import CurvedMesh
-from ogilvie.bem.curved_split import split_at_waterline
 from ogilvie.bem.hybrid import hybrid_bem
+from ogilvie.bem.hybrid_case import curved_boundary
 from ogilvie.bem.hybrid_hydro import hybrid_hydro
 from ogilvie.bem.inner import inner_maps
-from ogilvie.bem.inner_mesh import default_size, inner_mesh
 from ogilvie.bem.jitter import jittered
 from ogilvie.bem.outer import depth_functions, outer_mode
 from ogilvie.bem.short_waves import short_waves
@@ -137,18 +136,16 @@ def compared(data: dict[str, Any]) -> list[dict[str, Any]]:
 
 def meshes() -> dict[str, tuple[CurvedMesh, int]]:
     """Return panels as the call makes them of hemisphere and (fewer) box, moved or not, with the nodes per side."""
-    sphere, box = boundary(og.shapes.hemisphere(1.0), 6, 3, 1.0), boundary(og.shapes.box(4.0, 1.0, 0.5), 4, 2, 0.7)
+    sphere, box = (
+        curved_boundary(hull, None, resolution)
+        for hull, resolution in ((og.shapes.hemisphere(1.0), 1.0), (og.shapes.box(4.0, 1.0, 0.5), 0.7))
+    )
     return {
         "hemisphere": (sphere, 4),
         "hemisphere, corners moved": (jittered(sphere, 0.4), 4),
         "box": (box, 3),
         "box, corners moved": (jittered(box, 0.4), 3),
     }
-
-
-def boundary(hull: og.PanelMesh, rows: int, depth: int, resolution: float) -> CurvedMesh:
-    """Return curved panels, divided at the waterline."""
-    return split_at_waterline(inner_mesh(hull, size=1.75 / resolution * default_size(hull), rows=rows, depth=depth))
 
 
 def remains(mesh: CurvedMesh, order: int) -> dict[str, Any]:
