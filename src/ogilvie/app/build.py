@@ -174,6 +174,7 @@ def make_hydro(case: Case, hull: "PanelMesh | None", body: RigidBody | None, *, 
             wave_direction=directions(case, hull),
             rho=water.rho,
             g=water.g,
+            progress=progress,
         )
     from ogilvie.hydro.capytaine import solve_bem
 

@@ -51,6 +51,7 @@ def hybrid_bem(
     outer: Literal["compressed", "green"] = "compressed",
     rho: float = SEA_WATER,
     g: float = GRAVITY,
+    progress: bool | None = None,
 ) -> Retardation:
     """Return the retardation functions and the added mass at infinite frequency of a floating hull in deep water.
 
@@ -76,6 +77,8 @@ def hybrid_bem(
         a hundredth of the accuracy. `order` - 2 flat panels go along each side of a curved one.
     rho, g : float
         kg/m3, m/s2.
+    progress : bool, optional
+        Show a progress bar; by default for long work on a terminal.
 
     Returns
     -------
@@ -126,7 +129,8 @@ def hybrid_bem(
         g=g,
     )
     maps, defect = inner_maps(case.mesh, order=order)
-    parts = in_parallel(partial(_solved, case), (m for m in maps if m.dofs))
+    title = "impulses of surge..yaw, by symmetry"
+    parts = in_parallel(partial(_solved, case), [m for m in maps if m.dofs], progress=progress, title=title)
     return _table(parts, case, _remarks(parts, case.mesh, defect, floating(hull, body, rho)))
 
 

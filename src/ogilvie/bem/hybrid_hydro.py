@@ -35,6 +35,7 @@ def hybrid_hydro(
     order: int = 4,
     rho: float = SEA_WATER,
     g: float = GRAVITY,
+    progress: bool | None = None,
 ) -> "xr.Dataset":
     """Return added mass, damping and wave forces in deep water at zero speed, transformed from the time domain.
 
@@ -50,7 +51,7 @@ def hybrid_hydro(
         Directions that the waves travel to, rad; pi is head seas.
     duration : float, optional
         Length of the impulse responses, s; by default 40 sqrt(Rc/g).
-    dt, control_radius, resolution, order, rho, g
+    dt, control_radius, resolution, order, rho, g, progress
         As for :func:`ogilvie.hybrid_bem`.
 
     Returns
@@ -101,6 +102,7 @@ def hybrid_hydro(
         rho=rho,
         g=g,
         caller="hybrid_hydro",
+        progress=progress,
     )
     if omega[-1] > found.resolved:
         warnings.warn(

@@ -71,6 +71,7 @@ def impulses(
     rho: float = SEA_WATER,
     g: float = GRAVITY,
     caller: str = "impulses",
+    progress: bool | None = False,
 ) -> Impulses:
     """Return the impulse responses of a hull; parameters and errors as of :func:`ogilvie.hybrid_bem`.
 
@@ -88,7 +89,8 @@ def impulses(
         g=g,
     )
     maps, _ = inner_maps(case.mesh, order=order)
-    parts = in_parallel(partial(_part, case), (m for m in maps if m.dofs))
+    title = "impulses of surge..yaw, by symmetry"
+    parts = in_parallel(partial(_part, case), [m for m in maps if m.dofs], progress=progress, title=title)
     return Impulses(case, parts, float(np.sqrt(wavenumber_limit(maps[0].nodes)) / case.time))
 
 

@@ -12,6 +12,8 @@ from contextlib import AbstractContextManager, ExitStack, contextmanager
 from importlib import import_module
 from typing import TypeVar
 
+from ogilvie.hydro.progress import tracked
+
 Item = TypeVar("Item")
 Found = TypeVar("Found")
 
@@ -67,10 +69,13 @@ def algebra_threads(threads: int) -> AbstractContextManager[None]:
     return library_threads(openmp="math", integrals=1, algebra=threads)
 
 
-def in_parallel(function: Callable[[Item], Found], items: Iterable[Item]) -> list[Found]:
+def in_parallel(
+    function: Callable[[Item], Found], items: Iterable[Item], *, progress: bool | None = False, title: str = "working"
+) -> list[Found]:
     """Return function(item) of all items, as many at a time as there are cores, each with one thread of linear algebra.
 
-    For work whose time is spent where the interpreter is not needed (linear algebra, compiled loops that let it go).
+    For work whose time is spent where the interpreter is not needed (linear algebra, compiled loops that let it go). Progress
+    as for :func:`ogilvie.hydro.progress.tracked`.
 
     Examples
     --------
@@ -78,7 +83,12 @@ def in_parallel(function: Callable[[Item], Found], items: Iterable[Item]) -> lis
     [1, 2]
     """
     with algebra_threads(1), ThreadPoolExecutor(available_cores()) as pool:
-        return list(pool.map(function, items))
+        running = [pool.submit(function, item) for item in items]
+        try:
+            return [one.result() for one in tracked(running, show=progress, title=title)]
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
 
 
 @contextmanager
