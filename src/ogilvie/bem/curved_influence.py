@@ -171,7 +171,7 @@ def _spread(moments: Array, V: Array, t: Array, signs: Array, m: int, i: int, pa
                 out[g, i, panel * p * p + a * p + b] += signs[g, m] * f
 
 
-def check_closed(matrices: Influence, *, tolerance: float = 1e-3) -> float:
+def check_closed(matrices: Influence, *, tolerance: float = 5e-3) -> float:
     """Return the largest defect of the solid angle, |angle/(2 pi) - 1|; refuse a boundary that is not closed.
 
     Raises
