@@ -19,7 +19,7 @@ PARTS = ("hull", "free surface", "control surface")
 
 @dataclass(frozen=True, eq=False)
 class CurvedMesh:
-    """Curved quadrilaterals that enclose the fluid between a hull and the control hemisphere |x| = `radius`, z <= 0.
+    """Curved quadrilaterals that enclose the fluid between a hull and the control hemisphere of `radius`, z <= 0.
 
     Parameters
     ----------

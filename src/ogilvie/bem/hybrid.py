@@ -84,7 +84,7 @@ def hybrid_bem(
     -------
     Retardation
         About O. `discretisation_error` is the difference of two solutions that treat reciprocity and short waves differently,
-        `truncation_error` what is left at the end, both as parts of the largest |K_ij|.
+        `truncation_error` what is left at the end, both as parts of the largest K_ij.
 
     Raises
     ------

@@ -95,7 +95,7 @@ def plain_hybrid(
         A time step that the leapfrog does not bear, storage beyond the limit, panels that do not enclose the fluid, unknown
         dofs, numbers out of range.
     ConvergenceError
-        Some |K_jj| exceeds 2 K_jj(0): no fluid does that, the solution grows.
+        The size of some K_jj exceeds 2 K_jj(0): no fluid does that, the solution grows.
 
     Notes
     -----
