@@ -26,10 +26,10 @@ def surge(t):
     return outer_mode(1, 1).memory(t)[:, 0, 0]
 
 
-@pytest.mark.parametrize(("m", "allowed"), [(0, 2e-5), (1, 5e-6), (6, 5e-6), (16, 5e-6)])
+@pytest.mark.parametrize(("m", "allowed"), [(0, 2e-5), (1, 5e-6), (6, 5e-6), (16, 5e-6), (22, 5e-6)])
 def test_stored_oscillators_are_the_map(m, allowed):
     omega = np.array([0.013, 0.11, 0.37, 0.83, 1.27, 2.2, 3.9, 6.6, 11.3])  # few of them frequencies of the fit
-    sea = outer_map(m, MOST, multipoles=300)
+    sea = outer_map(m, MOST, multipoles=300 if m < 20 else 600)
     exact = np.array([sea.at(w) for w in omega])
     largest = np.abs(exact - sea.at_infinity).max()
     assert np.abs(outer_mode(m, MOST).at(omega) - exact).max() < allowed * largest
@@ -37,7 +37,7 @@ def test_stored_oscillators_are_the_map(m, allowed):
     assert np.abs(outer_mode(m, MOST).at(np.zeros(1))[0] - sea.at_zero).max() < allowed * largest
 
 
-@pytest.mark.parametrize("m", [0, 3, 16])
+@pytest.mark.parametrize("m", [0, 3, 16, 22])
 def test_memory_starts_with_its_exact_value(m):
     b = outer_mode(m, MOST).inputs
     assert np.abs(b.T @ b - initial_memory(m, MOST)).max() < 1e-8
@@ -109,7 +109,7 @@ def test_depth_functions_of_the_stored_modes_are_orthonormal():
 
 
 @pytest.mark.parametrize(
-    ("m", "count", "says"), [(17, 4, "0 to 16"), (-1, 4, "0 to 16"), (2, 17, "1 to 16"), (2, 0, "1 to 16")]
+    ("m", "count", "says"), [(23, 4, "0 to 22"), (-1, 4, "0 to 22"), (2, 17, "1 to 16"), (2, 0, "1 to 16")]
 )
 def test_what_is_not_stored_is_refused_with_what_is(m, count, says):
     with pytest.raises(InputError, match=says):

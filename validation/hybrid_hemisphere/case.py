@@ -41,7 +41,7 @@ ALLOWED_CURVES = (0.02, 0.05, 0.1, 0.15, 0.02, 0.15)  # % of the largest value
 SWEEP = np.arange(2.40, 2.721, 0.02)  # Ka through the irregular frequency of heave, 2.56
 PANELS = 600  # of the hull for the frequency-domain code
 LATE, LAST, COARSE = 300.0, 1000.0, 0.5
-MODES, FUNCTIONS = 17, 12  # of the outer domain
+MODES, FUNCTIONS = 23, 12  # of the outer domain
 
 
 def run(shared: Path | None) -> tuple[list[dict[str, Any]], dict[str, Any]]:

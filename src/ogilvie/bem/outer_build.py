@@ -18,7 +18,7 @@ from ogilvie.bem.outer_short_waves import short_waves
 
 Array = NDArray[Any]
 
-MODES, FUNCTIONS, OSCILLATORS = 17, 16, 28
+MODES, FUNCTIONS, OSCILLATORS = 23, 16, 28
 
 
 def frequencies() -> tuple[Array, Array, Array]:
