@@ -141,3 +141,14 @@ def test_strongly_bent_panels_are_halved_enough():
     rough, fine = (influence(nodes, tolerance=tolerance) for tolerance in (1e-6, 1e-11))
     assert np.abs(rough.double - fine.double).max() < 2e-4
     assert np.abs(rough.single - fine.single).max() < 2e-4
+
+
+def test_panel_that_bends_away_from_its_own_tangent_plane():
+    """A narrow, skewed and twisted sheet: what it does at its own nodes, against many more points."""
+    t = -np.cos(np.pi * np.arange(6) / 5)
+    u, v = np.meshgrid(t, t, indexing="ij")
+    sheet = np.stack([u + 0.5 * v, 0.3 * v + 0.1 * u * v, 0.6 * u**2 + 0.3 * v**2], axis=-1)
+    nodes = CurvedNodes(CurvedMesh(sheet[None], [FREE], 5.0), order=4)
+    rough, fine = (influence(nodes, tolerance=tolerance) for tolerance in (1e-6, 1e-11))
+    assert np.abs(rough.double - fine.double).max() < 1e-5
+    assert np.abs(rough.single - fine.single).max() < 1e-5

@@ -17,6 +17,9 @@ from ogilvie.errors import InputError
 
 Array = NDArray[Any]
 
+_BENT = 2.0  # how far a panel is off its tangent plane over its half width, from which on
+_MORE = 3  # times as many points are taken over the panel of the node itself
+
 
 @dataclass(frozen=True, eq=False)
 class Influence:
@@ -89,14 +92,15 @@ def influence(nodes: CurvedNodes, *, tolerance: float = 1e-6) -> Influence:
     rules = [_Rule(nodes, n, tolerance) for n in (p + 2, p + 4)]
     near = p + 6
     gauss, weight = legendre.leggauss(near)
-    inner_gauss, inner_weight = legendre.leggauss(near + 2 + int(-math.log10(tolerance) / 2))
+    own = near + 2 + int(-math.log10(tolerance) / 2)
+    own_rules = [*legendre.leggauss(own), *legendre.leggauss(_MORE * own)]
     centre = np.stack([f[:, 0, 0] for f in frames(nodes.coefficients, np.zeros(1), np.zeros(1))[:3]], axis=1)
     bend = bends(nodes.coefficients)
     S, D = _influence(
         nodes.coefficients, centre, bend, nodes.position, nodes.abscissae, nodes.to_lagrange, images, signs,
         rules[0].points, rules[0].weight, rules[0].P, rules[0].least,
         rules[1].points, rules[1].weight, rules[1].P, rules[1].least,
-        gauss, weight, least_ellipse(near, p, tolerance), inner_gauss, inner_weight,
+        gauss, weight, least_ellipse(near, p, tolerance), _bent(nodes, bend), *own_rules,
     )  # fmt: skip
     return Influence(nodes, classes, S, D)
 
@@ -117,11 +121,21 @@ class _Rule:
         self.least = least_ellipse(n, nodes.order, tolerance)
 
 
+def _bent(nodes: CurvedNodes, bend: Array) -> NDArray[np.bool_]:
+    """Tell at which nodes (N,) the panel leaves its tangent plane within its own width there."""
+    _, xu, xv, _ = frames(nodes.coefficients, nodes.abscissae, nodes.abscissae)
+    guu, gvv, guv = np.sum(xu * xu, axis=-1), np.sum(xv * xv, axis=-1), np.sum(xu * xv, axis=-1)
+    narrow = 0.5 * (guu + gvv) - np.sqrt(0.25 * (guu - gvv) ** 2 + guv**2)
+    off = 0.5 * bend[:, 0] + bend[:, 1] + 0.5 * bend[:, 2]
+    return np.asarray(off[:, None, None] ** 2 > _BENT**2 * narrow).ravel()
+
+
 @njit(cache=True, nogil=True, parallel=True)
 def _influence(
     c: Array, centre: Array, bend: Array, position: Array, abscissae: Array, V: Array, images: Array, signs: Array,
     y1: Array, w1: Array, P1: Array, least1: float, y2: Array, w2: Array, P2: Array, least2: float,
-    gauss: Array, weight: Array, least: float, inner_gauss: Array, inner_weight: Array,
+    gauss: Array, weight: Array, least: float,
+    bent: Array, own_gauss: Array, own_weight: Array, more_gauss: Array, more_weight: Array,
 ) -> tuple[Array, Array]:  # fmt: skip
     """Return single and double layer matrices (n_c, N, N)."""
     N, p, n_c = position.shape[0], abscissae.size, signs.shape[0]
@@ -137,7 +151,11 @@ def _influence(
                 d[:] = 0.0
                 if m == 0 and panel == own:
                     k = i - own * p * p
-                    self_moments(c[panel], abscissae[k // p], abscissae[k % p], inner_gauss, inner_weight, s, d)
+                    u, v = abscissae[k // p], abscissae[k % p]
+                    if bent[i]:
+                        self_moments(c[panel], u, v, more_gauss, more_weight, s, d)
+                    else:
+                        self_moments(c[panel], u, v, own_gauss, own_weight, s, d)
                 else:
                     in_u, in_v, _ = reach(x, centre[panel], 1.0, 1.0, bend[panel])
                     size = min(in_u, in_v)
