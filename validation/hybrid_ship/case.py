@@ -19,7 +19,7 @@ domain is 5 % low on panels of the rounded surface, and 0.4 % high on the file's
 K(0) is no measure. A quarter (sway, heave) to a half (roll) of it comes from damping above 2.4 rad/s, where the waves are too
 short for WAMIT's panels (the tanker's damping turns negative above 3.6 rad/s), and the tail fitted to it decides: K(0) of the
 tanker's roll goes from 1.3 to 2.2 GN m with the tail and the last frequency used. By the hybrid method it is 1.76, 1.98, 2.13
-with the panels at the waterline divided once, twice (the default) and three times, on the way to 2.4. Where the hull is not
+with the panels at the waterline divided once, twice and three times, on the way to 2.4. Where the hull is not
 vertical at the waterline, the water's angle there being gamma > 90 deg, the surface
 velocity after an impulse goes as r^(pi/(2 gamma) - 1); damping then falls as omega^-(2 pi/gamma - 1), slower than omega^-3, and
 in shallow sterns the last part of K(0) is the work of centimetres. So both sides are compared with one band limit,
@@ -49,12 +49,11 @@ def run(shared: Any) -> tuple[list[dict], dict]:
         wamit = og.read_hydro(shared / "data" / f"{path}.1")
         hull = og.load_mesh(shared / "data" / MESHES[name])
         units = {"rho": wamit.attrs["rho"], "g": wamit.attrs["g"]}
-        found = impulses(hull, g=units["g"])
-        K = retardation_of(found, **units)
+        found = impulses(hull, **units)
+        K = retardation_of(found)
         near = wamit.omega.values <= CLEAN[name][1]
-        ours = hydro_of(
-            found, hull, omega=wamit.omega.values[near], wave_direction=np.radians(list(HEADINGS.values())), **units
-        )
+        directions = np.radians(list(HEADINGS.values()))
+        ours = hydro_of(found, hull, omega=wamit.omega.values[near], wave_direction=directions)
         checks += limits(name, K, wamit) + memories(name, K, wamit) + matrices(name, K, wamit) + forces(name, ours, wamit)
         data[name] = (K, wamit)
     return checks, data

@@ -23,7 +23,7 @@ _SIZE = 1.75  # length of panels over the mesher's default
 _ROWS, _DEPTH = 6, 3  # rows of panels on the free surface and on the control surface
 _FINE = 1.5  # resolution from which on the panels at the waterline are divided twice
 _SHARE, _SHARES = (0.15,), (0.25, 0.25)  # of a panel at the waterline that its part next to the waterline gets, once or twice
-_MODES, _FUNCTIONS = 17, 12  # azimuthal modes and depth functions of the outer domain
+_MODES, _FUNCTIONS = 23, 12  # azimuthal modes and depth functions of the outer domain
 _FLOATS = 0.01  # difference of displaced and body's mass that is worth a note
 
 
