@@ -73,8 +73,8 @@ def hybrid_bem(
         Nodes per side of a panel, 2 or more.
     outer : {"compressed", "green"}
         The open sea as the passive oscillators of :mod:`ogilvie.bem.outer`, or paper B's method as published, by the transient
-        Green function and flat panels (:func:`ogilvie.bem.plain.plain_hybrid`): to compare with, a hundred times the work for
-        a hundredth of the accuracy. `order` - 2 flat panels go along each side of a curved one.
+        Green function and flat panels (:func:`ogilvie.bem.plain.plain_hybrid`): to compare with, several times the work for a
+        hundredth of the accuracy. `order` - 2 flat panels go along each side of a curved one.
     rho, g : float
         kg/m3, m/s2.
     progress : bool, optional
