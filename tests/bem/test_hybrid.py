@@ -118,3 +118,15 @@ def test_mass_that_does_not_float_there_is_noted():
 def test_bad_input_is_refused(change, message):
     with pytest.raises(InputError, match=message):
         hybrid_bem(hemisphere(1.0), **change)
+
+
+def test_water_angle_of_walls_and_flare():
+    """A hemisphere's waterline is upright whatever the division; a Wigley hull is wall-sided, the S175 flares."""
+    from ogilvie.bem.curved_split import water_angle
+    from ogilvie.mesh.shapes import s175, wigley
+
+    mesh = inner_mesh(hemisphere(1.0))
+    assert water_angle(mesh) == pytest.approx(np.pi / 2, abs=1e-4)
+    assert water_angle(split_at_waterline(mesh)) == pytest.approx(np.pi / 2, abs=1e-4)
+    assert water_angle(inner_mesh(wigley(3.0))) == pytest.approx(np.pi / 2, abs=1e-4)
+    assert np.radians(120.0) < water_angle(inner_mesh(s175())) < np.pi

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ogilvie.bem.curved import BODY, FREE, Array, CurvedMesh
+from ogilvie.bem.inner_checks import positions_and_normals
 
 SHARE = 0.15  # of a panel's extent away from the waterline that the panel next to it gets
 
@@ -35,6 +36,25 @@ def split_at_waterline(mesh: CurvedMesh, *, share: float = SHARE) -> CurvedMesh:
         part += [int(mesh.part[i])] * len(pieces)
 
     return replace(mesh, points=np.array(points), part=np.array(part))
+
+
+def water_angle(mesh: CurvedMesh) -> float:
+    """Return the largest angle of the water at the waterline, rad: pi/2 at a vertical side, more where the hull flares.
+
+    Examples
+    --------
+    >>> from ogilvie.bem.inner_mesh import inner_mesh
+    >>> from ogilvie.mesh.shapes import hemisphere
+    >>> round(water_angle(inner_mesh(hemisphere(1.0))), 3)
+    1.571
+    """
+    t = np.linspace(-0.99, 0.99, 5)  # a little inside: panels of three corners have no normal at the double one
+    normal = positions_and_normals(mesh.points, np.array([-1.0, *t, 1.0]), np.array([-1.0, *t, 1.0]))[1]
+    along = [side_points(normal[i], side)[1:-1] for i, side in _waterline_sides(mesh, BODY)]
+    if not along:
+        return 0.5 * np.pi
+    n = np.concatenate(along)
+    return float(0.5 * np.pi + np.arctan2(n[:, 2], np.linalg.norm(n[:, :2], axis=1)).max())
 
 
 def side_points(points: Array, side: int) -> Array:

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ogilvie.bem.coupled import Uncoupled, uncoupled
 from ogilvie.bem.curved import CurvedMesh
-from ogilvie.bem.curved_split import split_at_waterline
+from ogilvie.bem.curved_split import split_at_waterline, water_angle
 from ogilvie.bem.inner import InnerMap
 from ogilvie.bem.inner_mesh import default_size, inner_mesh
 from ogilvie.bem.outer import depth_functions, outer_mode
@@ -23,6 +23,7 @@ _SIZE = 1.75  # length of panels over the mesher's default
 _ROWS, _DEPTH = 6, 3  # rows of panels on the free surface and on the control surface
 _FINE = 1.5  # resolution from which on the panels at the waterline are divided twice
 _SHARE, _SHARES = (0.15,), (0.25, 0.25)  # of a panel at the waterline that its part next to the waterline gets, once or twice
+_FLARED = np.radians(100.0)  # angle of the water at the waterline from which on panels are divided twice in any case
 _MODES, _FUNCTIONS = 23, 12  # azimuthal modes and depth functions of the outer domain
 _FLOATS = 0.01  # difference of displaced and body's mass that is worth a note
 
@@ -127,7 +128,8 @@ def curved_boundary(hull: PanelMesh, control_radius: float | None, resolution: f
         rows=max(3, round(_ROWS * resolution)),
         depth=max(2, round(_DEPTH * resolution)),
     )
-    for share in _SHARE if resolution < _FINE else _SHARES:
+    fine = resolution >= _FINE
+    for share in _SHARES if fine else 2 * _SHARE if water_angle(mesh) > _FLARED else _SHARE:
         mesh = split_at_waterline(mesh, share=share)
     return mesh
 
