@@ -65,6 +65,22 @@ def test_a_hull_off_its_middle():
     assert there[4] == pytest.approx(-d * expected[2], abs=5e-3)
 
 
+def test_force_in_time_is_that_in_frequency():
+    """From the elevation at O by the kernel, which is not causal, as by the sum over its components."""
+    hydro = hybrid_hydro(
+        hemisphere(1.0), omega=np.linspace(0.04, 3.2, 80), wave_direction=[0.0], rho=1.0, g=1.0, resolution=0.5
+    )
+    kernel = og.excitation_kernel(hydro, dt=0.1, duration=40.0)
+    t, w, a, phase = 0.1 * np.arange(1600), np.array([0.5, 1.0, 1.6]), np.array([1.0, 0.6, 0.4]), np.array([0.2, 1.9, 4.0])
+    motion = a * np.exp(1j * (np.outer(t, w) + phase))
+    X = hydro.excitation_force.interp(omega=w, method="cubic").values[:, 0, [0, 2]]
+    middle = slice(410, -410)
+    force = kernel.force(motion.real.sum(axis=1))[middle][:, [0, 2]]
+    np.testing.assert_allclose(force, (motion @ X).real[middle], atol=4e-3 * np.abs(force).max())
+    before = np.abs(kernel.kernel[kernel.t < -0.5, 0, 0]).max()
+    assert before > 0.05 * np.abs(kernel.kernel[:, 0, 0]).max()
+
+
 def test_waves_too_short_for_the_panels_are_named():
     with pytest.warns(og.OgilvieWarning, match="too short for the panels, which resolve up to"):
         hybrid_hydro(hemisphere(1.0), omega=[1.0, 20.0], rho=1.0, g=1.0, resolution=0.5, duration=4.0)
