@@ -8,6 +8,7 @@ from octants import hemisphere_in_hemisphere
 
 from ogilvie.bem.curved_split import side_points, split_at_waterline
 from ogilvie.bem.hybrid import hybrid_bem
+from ogilvie.bem.hybrid_case import flared
 from ogilvie.bem.inner_mesh import inner_mesh
 from ogilvie.body import RigidBody
 from ogilvie.errors import InputError
@@ -129,4 +130,7 @@ def test_water_angle_of_walls_and_flare():
     assert water_angle(mesh) == pytest.approx(np.pi / 2, abs=1e-4)
     assert water_angle(split_at_waterline(mesh)) == pytest.approx(np.pi / 2, abs=1e-4)
     assert water_angle(inner_mesh(wigley(3.0))) == pytest.approx(np.pi / 2, abs=1e-4)
-    assert np.radians(120.0) < water_angle(inner_mesh(s175())) < np.pi
+    ship = inner_mesh(s175())
+    assert np.radians(120.0) < water_angle(ship) < np.pi
+    assert "in the first 0.23 s converges slowly" in flared(ship, 3.3)[0]
+    assert flared(mesh, 3.3) == []

@@ -244,5 +244,5 @@ def _draw_qtf(figure: Any, axis: Any, load: Any) -> None:
     i, j = (x.ravel() for x in np.indices((61, 61)))
     Q = load.qtf(grid[i], grid[j], HEAD)[:, 0].real.reshape(61, 61) / UNIT
     shown = axis.pcolormesh(grid, grid, -Q, shading="auto", cmap="viridis")
-    figure.colorbar(shown, ax=axis)
+    figure.colorbar(shown, ax=axis, label="kN/m^2")
     axis.set(title="surge QTF, Fr 0.25, Newman", xlabel="omega 1, rad/s", ylabel="omega 2, rad/s", aspect="equal")

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ogilvie.bem.coupled import CoupledSystem, joined
 from ogilvie.bem.curved import CurvedMesh
-from ogilvie.bem.hybrid_case import HybridCase, floating, hybrid_case
+from ogilvie.bem.hybrid_case import HybridCase, flared, floating, hybrid_case
 from ogilvie.bem.inner import InnerMap, inner_maps
 from ogilvie.bem.inner_mesh import inner_mesh
 from ogilvie.bem.plain import plain_hybrid
@@ -131,7 +131,7 @@ def hybrid_bem(
     maps, defect = inner_maps(case.mesh, order=order)
     title = "impulses of surge..yaw, by symmetry"
     parts = in_parallel(partial(_solved, case), [m for m in maps if m.dofs], progress=progress, title=title)
-    return _table(parts, case, _remarks(parts, case.mesh, defect, floating(hull, body, rho)))
+    return _table(parts, case, _remarks(parts, case.mesh, defect, [*flared(case.mesh, case.time), *floating(hull, body, rho)]))
 
 
 def _solved(case: HybridCase, inner: InnerMap) -> _Part:

@@ -25,6 +25,7 @@ _FINE = 1.5  # resolution from which on the panels at the waterline are divided 
 _SHARE, _SHARES = (0.15,), (0.25, 0.25)  # of a panel at the waterline that its part next to the waterline gets, once or twice
 _FLARED = np.radians(100.0)  # angle of the water at the waterline from which on panels are divided twice in any case
 _MODES, _FUNCTIONS = 23, 12  # azimuthal modes and depth functions of the outer domain
+_START = 0.07  # part of sqrt(control radius / g) in which K(t) of a flared hull depends on the panels at the waterline
 _FLOATS = 0.01  # difference of displaced and body's mass that is worth a note
 
 
@@ -132,6 +133,17 @@ def curved_boundary(hull: PanelMesh, control_radius: float | None, resolution: f
     for share in _SHARES if fine else 2 * _SHARE if water_angle(mesh) > _FLARED else _SHARE:
         mesh = split_at_waterline(mesh, share=share)
     return mesh
+
+
+def flared(mesh: CurvedMesh, time: float) -> list[str]:
+    """Return a note on the start of K where the hull flares at the waterline (docs/theory/hybrid.md, section 7)."""
+    angle = water_angle(mesh)
+    if angle <= _FLARED:
+        return []
+    return [
+        f"the water meets the hull at up to {np.degrees(angle):.0f} deg at the waterline: K in the first {_START * time:.2g} s "
+        "converges slowly there and may be too small, which the estimate of errors does not see."
+    ]
 
 
 def floating(hull: PanelMesh | CurvedMesh, body: RigidBody | None, rho: float) -> list[str]:
