@@ -6,7 +6,6 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from ogilvie.errors import InputError
@@ -156,31 +155,6 @@ class SecondOrderSeries:
         if not self.form.difference:
             return np.zeros(6)
         return np.asarray(np.abs(self.amplitude[realisation]) ** 2 @ self.form.diagonal())
-
-
-def speed_of(hydro: xr.Dataset) -> float:
-    """Return the speed of a data set, m/s."""
-    return float(hydro.attrs.get("speed", 0.0))
-
-
-def by_speed(sets: Sequence[Any], who: str) -> list[xr.Dataset]:
-    """Return data sets in the order of their speeds.
-
-    Raises
-    ------
-    InputError
-        Anything else than data sets; none; two at one speed.
-    """
-    for one in sets:
-        if not isinstance(one, xr.Dataset):
-            raise InputError(f"{who}: hydrodynamic data sets (xarray.Dataset) expected, {type(one).__name__} found.")
-    if not sets:
-        raise InputError(f"{who}: one hydrodynamic data set or more expected, none found.")
-    found = sorted(sets, key=speed_of)
-    speeds = np.array([speed_of(one) for one in found])
-    if np.any(np.diff(speeds) < 1e-9):
-        raise InputError(f"{who}: data sets at different speeds expected, {', '.join(f'{u:.4g}' for u in speeds)} m/s found.")
-    return found
 
 
 def refuse_other_headings(force: ForceInSea) -> None:

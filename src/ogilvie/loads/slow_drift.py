@@ -12,9 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 from ogilvie.errors import InputError, OgilvieWarning
 from ogilvie.hydro.schema import DOFS
 from ogilvie.loads.base import SLOW_DRIFT, ComplexArray, Surroundings, Terms
+from ogilvie.loads.by_speed import by_speed, speed_of
 from ogilvie.loads.newman import APPROXIMATIONS, drift_table
 from ogilvie.loads.quadratic import QuadraticForm
-from ogilvie.loads.second_order import ForceInSea, by_speed, check_position, refuse_other_headings, speed_of
+from ogilvie.loads.second_order import ForceInSea, check_position, refuse_other_headings
 from ogilvie.loads.transfer import qtf_table
 from ogilvie.loads.wave_drift_damping import WAVE_DRIFT_DAMPING
 from ogilvie.waves.field import Sea

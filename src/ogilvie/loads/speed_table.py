@@ -12,14 +12,12 @@ from ogilvie.errors import InputError
 from ogilvie.hydro.schema import DOFS
 from ogilvie.hydro.speed_terms import FluidMomentum, diffraction_at_speed, speed_matrix
 from ogilvie.loads.base import ComplexArray, embed
+from ogilvie.loads.by_speed import ROUNDING, by_speed, speed_of
 from ogilvie.loads.interpolation import Headings, evaluate, evaluate_turning, symmetric_headings
 from ogilvie.waves.dispersion import encounter_frequency
 
 Array = NDArray[np.float64]
 Interpolation = Literal["cubic", "linear"]
-
-#: m/s beyond the table that count as rounding.
-_ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,14 +121,11 @@ class SpeedTable:
     _rule: _Rule | None = field(repr=False)
 
     def __init__(self, hydro: xr.Dataset | Sequence[xr.Dataset], *, interpolation: Interpolation = "cubic") -> None:
-        sets = [hydro] if isinstance(hydro, xr.Dataset) else list(hydro)
+        sets = by_speed([hydro] if isinstance(hydro, xr.Dataset) else list(hydro), "SpeedTable")
         _check_sets(sets)
         if interpolation not in ("cubic", "linear"):
             raise InputError(f"SpeedTable: interpolation: 'cubic' or 'linear' expected, {interpolation!r} found.")
-        sets.sort(key=_speed_of)
-        speeds = np.array([_speed_of(h) for h in sets])
-        if np.any(np.diff(speeds) <= _ROUNDING):
-            raise InputError(f"SpeedTable: different speeds expected, {', '.join(f'{u:.4g}' for u in speeds)} m/s found.")
+        speeds = np.array([speed_of(h) for h in sets])
         object.__setattr__(self, "interpolation", interpolation)
         object.__setattr__(self, "_speeds", speeds)
         object.__setattr__(self, "_tables", tuple(HeadingTable.of(h) for h in sets))
@@ -209,16 +204,8 @@ class SpeedTable:
         return np.asarray(spline(np.clip(speed, self._speeds[0], self._speeds[-1])))
 
 
-def _speed_of(hydro: xr.Dataset) -> float:
-    return float(hydro.attrs.get("speed", 0.0))
-
-
 def _check_sets(sets: list[xr.Dataset]) -> None:
-    if not sets:
-        raise InputError("SpeedTable: at least one hydrodynamic data set expected, none found.")
     for hydro in sets:
-        if not isinstance(hydro, xr.Dataset):
-            raise InputError(f"SpeedTable: hydrodynamic data sets (xarray.Dataset) expected, {type(hydro).__name__} found.")
         if "excitation_force" not in hydro:
             raise InputError("SpeedTable: excitation_force expected in every data set, none found. Read or solve for it.")
     for key in ("rho", "g", "water_depth"):
@@ -231,7 +218,7 @@ def has_rule(hydro: xr.Dataset) -> bool:
     """Return whether the forces of a data set can be carried to any speed: at zero speed, in two parts, heave with pitch."""
     parts = "Froude_Krylov_force" in hydro or "diffraction_force" in hydro
     dofs = tuple(str(d) for d in hydro.influenced_dof.values)
-    return parts and _speed_of(hydro) == 0.0 and "added_mass" in hydro and speed_matrix(dofs) is not None
+    return parts and speed_of(hydro) == 0.0 and "added_mass" in hydro and speed_matrix(dofs) is not None
 
 
 def _rule(hydro: xr.Dataset) -> _Rule | None:
@@ -255,7 +242,7 @@ def _rule(hydro: xr.Dataset) -> _Rule | None:
 
 
 def _refuse_outside(what: str, unit: str, found: Array, lo: float, hi: float) -> None:
-    bad = ~np.isfinite(found) | (found < lo - _ROUNDING) | (found > hi + _ROUNDING)
+    bad = ~np.isfinite(found) | (found < lo - ROUNDING) | (found > hi + ROUNDING)
     if bad.any():
         raise InputError(
             f"SpeedTable: {what} within {lo:.4g}..{hi:.4g} {unit} expected, {found[bad][0]:.4g} {unit} found. "
