@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from ogilvie.bem.flat_panels import FlatPanels, image_signs
+from ogilvie.bem.curved import image_signs
+from ogilvie.bem.flat_panels import FlatPanels
 from ogilvie.bem.flat_panels_influence import density_signs, rankine, rankine_by_parity
 from ogilvie.errors import InputError
 

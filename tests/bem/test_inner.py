@@ -7,7 +7,7 @@ from scipy.optimize import brentq
 from scipy.special import jvp, yvp
 from standing import odd_functions, still
 
-from ogilvie.bem.coupled import azimuthal_modes, control_functions, coupled_system
+from ogilvie.bem.coupled import azimuthal_modes, control_functions, joined, uncoupled
 from ogilvie.bem.curved import BODY, CONTROL, FREE
 from ogilvie.bem.curved_nodes import CurvedNodes
 from ogilvie.bem.inner import inner_maps, normal_modes, unit_mesh
@@ -101,7 +101,7 @@ def test_added_mass_of_the_hemisphere_at_infinite_frequency(how):
     unit = 2 / 3 * np.pi / 8
     maps, _ = inner_maps(hemisphere_in_hemisphere(**MESH), order=5)
     for inner in maps:
-        system = coupled_system(inner, [still(m, 4) for m in range(4)], odd_functions, reciprocity=how)
+        system = joined(uncoupled(inner, [still(m, 4) for m in range(4)], odd_functions), reciprocity=how)
         np.testing.assert_array_equal(system.stiffness, system.stiffness.T)
         assert np.linalg.eigvalsh(system.stiffness)[0] > 0
         found = system.added_mass[0, 0] / unit
@@ -169,4 +169,4 @@ def test_functions_of_the_control_surface_are_orthonormal():
 def test_control_surface_with_too_few_nodes_is_refused():
     inner = inner_maps(hemisphere_in_hemisphere(depths=1, across=1), order=1)[0][0]
     with pytest.raises(InputError, match="functions of the depth"):
-        coupled_system(inner, [still(m, 12) for m in range(2)], odd_functions)
+        uncoupled(inner, [still(m, 12) for m in range(2)], odd_functions)

@@ -7,14 +7,13 @@ from typing import Any
 import numpy as np
 
 import ogilvie as og
-from ogilvie.bem.coupled import coupled_system
+from ogilvie.bem.coupled import joined
 from ogilvie.bem.curved import CurvedMesh
 from ogilvie.bem.hybrid import hybrid_bem
-from ogilvie.bem.hybrid_case import curved_boundary
+from ogilvie.bem.hybrid_case import curved_boundary, hybrid_case
 from ogilvie.bem.hybrid_hydro import hybrid_hydro
 from ogilvie.bem.inner import inner_maps
 from ogilvie.bem.jitter import jittered
-from ogilvie.bem.outer import depth_functions, outer_mode
 from ogilvie.bem.short_waves import short_waves
 from ogilvie.bem.stepping import impulse_response
 from ogilvie.memory.table import Retardation
@@ -41,7 +40,6 @@ ALLOWED_CURVES = (0.02, 0.05, 0.1, 0.15, 0.02, 0.15)  # % of the largest value
 SWEEP = np.arange(2.40, 2.721, 0.02)  # Ka through the irregular frequency of heave, 2.56
 PANELS = 600  # of the hull for the frequency-domain code
 LATE, LAST, COARSE = 300.0, 1000.0, 0.5
-MODES, FUNCTIONS = 23, 12  # of the outer domain
 
 
 def run(shared: Path | None) -> tuple[list[dict[str, Any]], dict[str, Any]]:
@@ -150,17 +148,17 @@ def meshes() -> dict[str, tuple[CurvedMesh, int]]:
 
 def remains(mesh: CurvedMesh, order: int) -> dict[str, Any]:
     """Return K of heave and surge to t = 1000, energies, and the largest real part of an eigenvalue of the motion."""
+    case = hybrid_case("late times", mesh, duration=LAST, dt=COARSE, order=order, **UNITS)
     maps, _ = inner_maps(mesh, order=order)
-    sea, time = [outer_mode(m, FUNCTIONS) for m in range(MODES)], np.sqrt(mesh.radius)
     K, energy, growth, nodes = [], [], [], len(mesh.images) * len(maps[0].nodes.weight)
     for inner in (m for m in maps if {0, 2} & set(m.dofs)):
-        system = coupled_system(inner, sea, depth_functions, centre=np.array(mesh.centre) / mesh.radius)
-        late, count = short_waves(system), round(LAST / COARSE) + 1
-        response = impulse_response(system.stiffness, system.dampers, system.forcing, dt=COARSE / time, count=count, late=late)
+        system = joined(case.domains(inner))
+        late, step = short_waves(system), case.step / case.time
+        response = impulse_response(system.stiffness, system.dampers, system.forcing, dt=step, count=case.count, late=late)
         K.append(mesh.radius**2 * response.K[:, 0, 0])
         energy.append(response.energy.max(axis=1))
         growth.append(fastest(system.stiffness, system.dampers, late))
-    return {"t": COARSE * np.arange(count), "K": K, "energy": energy, "growth": max(growth) / time, "nodes": nodes}
+    return {"t": case.t, "K": K, "energy": energy, "growth": max(growth) / case.time, "nodes": nodes}
 
 
 def fastest(S: np.ndarray, dampers: np.ndarray, late: Any) -> float:

@@ -6,6 +6,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 import ogilvie as og
+from ogilvie.bem.hybrid_case import hybrid_case
 from ogilvie.bem.hybrid_hydro import hydro_of
 from ogilvie.bem.impulses import impulses, retardation_of
 
@@ -49,7 +50,7 @@ def run(shared: Any) -> tuple[list[dict], dict]:
         wamit = og.read_hydro(shared / "data" / f"{path}.1")
         hull = og.load_mesh(shared / "data" / MESHES[name])
         units = {"rho": wamit.attrs["rho"], "g": wamit.attrs["g"]}
-        found = impulses(hull, **units)
+        found = impulses(hybrid_case(name, hull, **units))
         K = retardation_of(found)
         near = wamit.omega.values <= CLEAN[name][1]
         directions = np.radians(list(HEADINGS.values()))

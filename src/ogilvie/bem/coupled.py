@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ogilvie.bem.curved import BODY, CONTROL
 from ogilvie.bem.curved_nodes import CurvedNodes, frames
 from ogilvie.bem.inner import InnerMap, normal_modes
+from ogilvie.bem.outer import OuterMode
 from ogilvie.bem.reciprocity import FunctionMap, Reciprocity, in_functions, reciprocal
 from ogilvie.bem.surface_modes import surface_modes
 from ogilvie.errors import ConvergenceError, InputError
@@ -22,21 +23,6 @@ _MISSED = 0.5  # largest part of the square of a function on the control surface
 _SMOOTH = 150.0  # wavenumber in 1/Rc up to which modes of the free surface count as smooth
 _FEWEST = 4  # functions of the depth in the lowest azimuthal mode
 _MORE = 6  # points per side of a panel, more than nodes, for integrals of these functions
-
-
-class OuterMode(Protocol):
-    """Outer domain of one azimuthal mode in J depth functions: phi = -N q - b.T w, w'' + D D.T w' + W^2 w = b q."""
-
-    @property
-    def m(self) -> int: ...
-    @property
-    def instantaneous(self) -> Array: ...
-    @property
-    def inputs(self) -> Array: ...
-    @property
-    def dampers(self) -> Array: ...
-    @property
-    def frequencies(self) -> Array: ...
 
 
 DepthFunctions = Callable[[int, Array, int], Array]
@@ -178,18 +164,6 @@ def joined(given: Uncoupled, *, reciprocity: Reciprocity = "smoother") -> Couple
     h = np.concatenate([-(T.vf.T + F.T @ V), B.T @ V]) @ T.hull.T
     instantaneous = -T.hull @ (T.vv + V.T @ V) @ T.hull.T
     return CoupledSystem(given.inner, S, D, h, instantaneous, given.motions, given.wavenumber, modes, sea.missed)
-
-
-def coupled_system(
-    inner: InnerMap,
-    outer: Sequence[OuterMode],
-    depth_functions: DepthFunctions,
-    *,
-    centre: Array | None = None,
-    reciprocity: Reciprocity = "smoother",
-) -> CoupledSystem:
-    """Return the coupled system of one class of symmetry: :func:`joined` of what :func:`uncoupled` returns."""
-    return joined(uncoupled(inner, outer, depth_functions, centre=centre), reciprocity=reciprocity)
 
 
 @dataclass(frozen=True, eq=False)

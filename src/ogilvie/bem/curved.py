@@ -72,6 +72,17 @@ class CurvedMesh:
     @cached_property
     def images(self) -> Array:
         """Signs (n_images, 2) of x and y of the stored part and of its mirror images."""
-        y = (1.0,) if self.symmetry == "none" else (1.0, -1.0)
-        x = (1.0, -1.0) if self.symmetry == "xz+yz" else (1.0,)
-        return np.array([(a, b) for a in x for b in y])
+        return image_signs(self.symmetry)
+
+
+def image_signs(symmetry: Symmetry) -> Array:
+    """Return the signs (n_images, 2) of x and y of the stored part and of its mirror images.
+
+    Examples
+    --------
+    >>> image_signs("xz").tolist()
+    [[1.0, 1.0], [1.0, -1.0]]
+    """
+    y = (1.0,) if symmetry == "none" else (1.0, -1.0)
+    x = (1.0, -1.0) if symmetry == "xz+yz" else (1.0,)
+    return np.array([(a, b) for a in x for b in y])

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ogilvie.bem.curved import Array, CurvedMesh
 from ogilvie.errors import InputError
+from ogilvie.mesh.chebyshev import chebyshev_points
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,7 +61,7 @@ class CurvedNodes:
     def coefficients(self) -> Array:
         """Coefficients (n, q, q, 3) of T_k(u) T_l(v) of each panel."""
         q = self.mesh.degree
-        inverse = np.linalg.inv(chebyshev.chebvander(-np.cos(np.pi * np.arange(q) / (q - 1)), q - 1))
+        inverse = np.linalg.inv(chebyshev.chebvander(chebyshev_points(q), q - 1))
         return np.ascontiguousarray(np.einsum("ki,lj,nijd->nkld", inverse, inverse, self.mesh.points))
 
     @cached_property

@@ -3,10 +3,10 @@
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ogilvie.bem.curved import BODY, FREE, Array, CurvedMesh
 from ogilvie.bem.inner_checks import positions_and_normals
+from ogilvie.mesh.chebyshev import chebyshev_points, interpolation
 
 SHARE = 0.15  # of a panel's extent away from the waterline that the panel next to it gets
 
@@ -90,24 +90,16 @@ def _common(points: Array, hull: list[tuple[int, int]], free: list[tuple[int, in
 
 def _middle(side: Array) -> Array:
     """Return the point half-way along a side, of its polynomial."""
-    return np.asarray(_interpolation(len(side), np.zeros(1)) @ side)[0]
+    return np.asarray(interpolation(len(side), np.zeros(1)) @ side)[0]
 
 
 def _divided(panel: Array, side: int, share: float) -> list[Array]:
     """Return the panel next to the side and the rest."""
     q = len(panel)
-    t = -np.cos(np.pi * np.arange(q) / (q - 1))
+    t = chebyshev_points(q)
     cut = -1.0 + 2.0 * share
     near, far = -1.0 + (t + 1.0) * share, cut + (t + 1.0) * (1.0 - share)
     if side % 2:
         near, far = -near[::-1], -far[::-1]
     axis = "ki,ijd->kjd" if side < 2 else "kj,ijd->ikd"
-    return [np.einsum(axis, _interpolation(q, x), panel) for x in (near, far)]
-
-
-def _interpolation(q: int, x: Array) -> NDArray[np.float64]:
-    """Return the matrix (len(x), q) from values at the q Chebyshev points to values at x."""
-    from numpy.polynomial import chebyshev
-
-    nodes = -np.cos(np.pi * np.arange(q) / (q - 1))
-    return np.asarray(chebyshev.chebvander(x, q - 1) @ np.linalg.inv(chebyshev.chebvander(nodes, q - 1)))
+    return [np.einsum(axis, interpolation(q, x), panel) for x in (near, far)]

@@ -121,6 +121,7 @@ def _require_unfolded(water: Array) -> None:
 
 
 def positive(key: str, value: float | None, default: float) -> float:
+    """Return a length in m that was given, or the default; :class:`InputError` names the `key` of one that is not positive."""
     if value is None:
         return default
     if not (np.isfinite(value) and value > 0.0):
@@ -129,6 +130,7 @@ def positive(key: str, value: float | None, default: float) -> float:
 
 
 def count(key: str, value: int | None, default: int) -> int:
+    """Return a number of panels that was given, or the default; :class:`InputError` names the `key` of one below 1."""
     if value is None:
         return default
     if not (isinstance(value, int | np.integer) and value >= 1):

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ogilvie.bem.curved import Symmetry
+from ogilvie.bem.curved import Symmetry, image_signs
 from ogilvie.errors import InputError
 
 Array = NDArray[Any]
@@ -130,13 +130,6 @@ class FlatPanels:
         points = (1 - u) * (1 - v) * a + u * (1 - v) * b + u * v * c + (1 - u) * v * d
         cross = np.cross((1 - v) * (b - a) + v * (c - d), (1 - u) * (d - a) + u * (c - b))
         return points, 0.25 * np.outer(w, w).reshape(-1, 1) * np.linalg.norm(cross, axis=-1)
-
-
-def image_signs(symmetry: Symmetry) -> Array:
-    """Return the signs (n_images, 2) of x and y of the given part and of its mirror images."""
-    y = (1.0,) if symmetry == "none" else (1.0, -1.0)
-    x = (1.0, -1.0) if symmetry == "xz+yz" else (1.0,)
-    return np.array([(a, b) for a in x for b in y])
 
 
 def _repeated_third(corners: Array) -> Array:

@@ -172,7 +172,7 @@ def _remarks(parts: list[_Part], mesh: CurvedMesh, defect: float, floating: list
     """Return what the user should know."""
     nodes = len(parts[0].system.inner.nodes.weight)
     lowest = min(p.response.least for p in parts)
-    notes = [*getattr(mesh, "notes", ())]
+    notes = [*mesh.notes]
     notes.append(
         f"{nodes} nodes on the stored part, {len(mesh.images) * nodes} on the whole boundary; closed within {defect:.0e}."
     )

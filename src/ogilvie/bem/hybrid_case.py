@@ -15,9 +15,11 @@ from ogilvie.bem.outer import depth_functions, outer_mode
 from ogilvie.body import RigidBody
 from ogilvie.errors import InputError
 from ogilvie.mesh.panels import PanelMesh
+from ogilvie.units import GRAVITY, SEA_WATER
 
 Array = NDArray[Any]
 
+_DURATION = 40.0  # default over sqrt(control radius / g)
 _DT = 0.035  # default time step over sqrt(control radius / g)
 _SIZE = 1.75  # length of panels over the mesher's default
 _ROWS, _DEPTH = 6, 3  # rows of panels on the free surface and on the control surface
@@ -87,16 +89,17 @@ def hybrid_case(
     caller: str,
     hull: PanelMesh | CurvedMesh,
     *,
-    duration: float | None,
-    dt: float | None,
-    control_radius: float | None,
-    resolution: float,
-    order: int,
-    rho: float,
-    g: float,
-    longest: float = 40.0,
+    duration: float | None = None,
+    dt: float | None = None,
+    control_radius: float | None = None,
+    resolution: float = 1.0,
+    order: int = 4,
+    rho: float = SEA_WATER,
+    g: float = GRAVITY,
 ) -> HybridCase:
-    """Return the problem; a duration that is not given is `longest` sqrt(Rc/g).
+    """Return the problem; parameters as of :func:`ogilvie.hybrid_bem`, a duration that is not given is 40 sqrt(Rc/g).
+
+    Errors name the `caller`.
 
     Raises
     ------
@@ -116,7 +119,7 @@ def hybrid_case(
     mesh = hull if isinstance(hull, CurvedMesh) else curved_boundary(hull, control_radius, resolution)
     time = float(np.sqrt(mesh.radius / g))
     step = _DT * time if dt is None else dt
-    last = longest * time if duration is None else duration
+    last = _DURATION * time if duration is None else duration
     return HybridCase(mesh, order, step, int(np.ceil(last / step - 1e-9)) + 1, rho, g)
 
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ogilvie.bem.hybrid_case import hybrid_case
 from ogilvie.bem.impulses import Impulses, impulses
 from ogilvie.bem.wave_force import wave_force
 from ogilvie.body import RigidBody
@@ -92,7 +93,8 @@ def hybrid_hydro(
     direction = np.atleast_1d(np.asarray(wave_direction, dtype=float))
     if not (len(omega) and np.all(np.isfinite(omega)) and omega[0] > 0.0):
         raise InputError("hybrid_hydro: omega: finite frequencies > 0 expected, others found.")
-    found = impulses(
+    case = hybrid_case(
+        "hybrid_hydro",
         hull,
         duration=duration,
         dt=dt,
@@ -101,9 +103,8 @@ def hybrid_hydro(
         order=order,
         rho=rho,
         g=g,
-        caller="hybrid_hydro",
-        progress=progress,
     )
+    found = impulses(case, progress=progress)
     if omega[-1] > found.resolved:
         warnings.warn(
             f"hybrid_hydro: waves of {omega[-1]:.4g} rad/s are too short for the panels, which resolve up to "

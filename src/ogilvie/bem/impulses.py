@@ -8,15 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ogilvie.bem.coupled import CoupledSystem, joined
-from ogilvie.bem.curved import CurvedMesh
-from ogilvie.bem.hybrid_case import HybridCase, hybrid_case
+from ogilvie.bem.hybrid_case import HybridCase
 from ogilvie.bem.inner import InnerMap, inner_maps
 from ogilvie.bem.short_waves import short_waves, wavenumber_limit
 from ogilvie.bem.stepping import impulse_response
 from ogilvie.hydro.threads import in_parallel
 from ogilvie.memory.table import Retardation
-from ogilvie.mesh.panels import PanelMesh
-from ogilvie.units import GRAVITY, SEA_WATER
 
 Array = NDArray[Any]
 
@@ -60,35 +57,9 @@ class Impulses:
     resolved: float
 
 
-def impulses(
-    hull: PanelMesh | CurvedMesh,
-    *,
-    duration: float | None = None,
-    dt: float | None = None,
-    control_radius: float | None = None,
-    resolution: float = 1.0,
-    order: int = 4,
-    rho: float = SEA_WATER,
-    g: float = GRAVITY,
-    caller: str = "impulses",
-    progress: bool | None = False,
-) -> Impulses:
-    """Return the impulse responses of a hull; parameters and errors as of :func:`ogilvie.hybrid_bem`.
-
-    Without a duration, 40 sqrt(Rc/g). Errors name the `caller`.
-    """
-    case = hybrid_case(
-        caller,
-        hull,
-        duration=duration,
-        dt=dt,
-        control_radius=control_radius,
-        resolution=resolution,
-        order=order,
-        rho=rho,
-        g=g,
-    )
-    maps, _ = inner_maps(case.mesh, order=order)
+def impulses(case: HybridCase, *, progress: bool | None = False) -> Impulses:
+    """Return the impulse responses of a hull; progress as for :func:`ogilvie.hybrid_bem`."""
+    maps, _ = inner_maps(case.mesh, order=case.order)
     title = "impulses of surge..yaw, by symmetry"
     parts = in_parallel(partial(_part, case), [m for m in maps if m.dofs], progress=progress, title=title)
     return Impulses(case, parts, float(np.sqrt(wavenumber_limit(maps[0].nodes)) / case.time))
@@ -114,8 +85,9 @@ def retardation_of(found: Impulses) -> Retardation:
 
     Examples
     --------
+    >>> from ogilvie.bem.hybrid_case import hybrid_case
     >>> from ogilvie.mesh.shapes import hemisphere
-    >>> K = retardation_of(impulses(hemisphere(1.0), duration=4.0, rho=1.0, g=1.0))
+    >>> K = retardation_of(impulses(hybrid_case("example", hemisphere(1.0), duration=4.0, rho=1.0, g=1.0)))
     >>> round(float(K.K[0, 2, 2] / (2 / 3 * np.pi)), 3)  # of K33(0) = 3/16
     0.188
     """

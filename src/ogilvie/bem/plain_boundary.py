@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ogilvie.bem.curved import BODY, CONTROL, FREE, CurvedMesh, Symmetry
 from ogilvie.bem.flat_panels import FlatPanels
 from ogilvie.errors import InputError
+from ogilvie.mesh.chebyshev import interpolation
 
 Array = NDArray[Any]
 
@@ -99,11 +100,8 @@ def flat_boundary(mesh: CurvedMesh, *, divisions: int = 2) -> FlatBoundary:
     """
     if divisions < 1:
         raise InputError(f"flat_boundary: divisions >= 1 expected, {divisions!r} found.")
-    q = mesh.degree
-    node = -np.cos(np.pi * np.arange(q) / (q - 1))
-    basis = np.polynomial.chebyshev.chebvander(np.linspace(-1.0, 1.0, divisions + 1), q - 1)
-    L = basis @ np.linalg.inv(np.polynomial.chebyshev.chebvander(node, q - 1))
-    p = np.einsum("ai,bj,nijk->nabk", L, L, mesh.points) + np.asarray(getattr(mesh, "centre", (0.0, 0.0, 0.0)))
+    L = interpolation(mesh.degree, np.linspace(-1.0, 1.0, divisions + 1))
+    p = np.einsum("ai,bj,nijk->nabk", L, L, mesh.points) + np.array(mesh.centre)
     corners = np.stack([p[:, :-1, :-1], p[:, 1:, :-1], p[:, 1:, 1:], p[:, :-1, 1:]], axis=3)
     corners[np.abs(corners) < 1e-12 * mesh.radius] = 0.0
     surfaces = []

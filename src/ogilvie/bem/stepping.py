@@ -40,7 +40,8 @@ class Response:
     least : float
         Lowest eigenvalue of the stiffness over the highest, before it was cut off at zero.
     energy : (n_t, k) array
-        Energy left of what each impulse gave, 1 at the start; it cannot grow.
+        Energy left of what each impulse gave, 1 at the start; it cannot grow. Small systems tell it for about every
+        sqrt(n_t)-th time and repeat it between.
     """
 
     K: Array

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from ogilvie.bem.curved import FREE
 from ogilvie.bem.curved_nodes import CurvedNodes, frames
+from ogilvie.mesh.chebyshev import chebyshev_points
 
 Array = NDArray[Any]
 
@@ -53,7 +54,7 @@ def surface_modes(nodes: CurvedNodes, parity: Array) -> tuple[Array, Array]:
 def _continuous(nodes: CurvedNodes, parity: Array) -> tuple[Array, tuple[Array, Array], Array]:
     """Return values (n, n_c) and gradient at the nodes of each continuous function, and the weights (n,)."""
     p, free = nodes.order, np.flatnonzero(nodes.mesh.part == FREE)
-    corners = -np.cos(np.pi * np.arange(p) / (p - 1))
+    corners = chebyshev_points(p)
     c = nodes.coefficients[free]
     number, kept = _merged(frames(c, corners, corners)[0].reshape(-1, 3), parity, nodes)
     value, slope = _one_dimension(corners, nodes.abscissae)
