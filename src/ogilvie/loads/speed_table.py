@@ -121,7 +121,10 @@ class SpeedTable:
     _rule: _Rule | None = field(repr=False)
 
     def __init__(self, hydro: xr.Dataset | Sequence[xr.Dataset], *, interpolation: Interpolation = "cubic") -> None:
-        sets = by_speed([hydro] if isinstance(hydro, xr.Dataset) else list(hydro), "SpeedTable")
+        sets = [hydro] if isinstance(hydro, xr.Dataset) else list(hydro)
+        if not sets:
+            raise InputError("SpeedTable: at least one hydrodynamic data set expected, none found.")
+        sets = by_speed(sets, "SpeedTable")
         _check_sets(sets)
         if interpolation not in ("cubic", "linear"):
             raise InputError(f"SpeedTable: interpolation: 'cubic' or 'linear' expected, {interpolation!r} found.")
