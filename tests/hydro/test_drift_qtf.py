@@ -8,10 +8,10 @@ from scipy.special import h2vp
 
 from ogilvie.body import RigidBody
 from ogilvie.errors import InputError, OgilvieWarning
-from ogilvie.hydro import drift_run
+from ogilvie.hydro import drift_solver
 from ogilvie.hydro.capytaine import solve_bem
 from ogilvie.hydro.drift import mean_drift
-from ogilvie.hydro.drift_qtf import qtf
+from ogilvie.hydro.drift_qtf import difference_qtf
 from ogilvie.hydro.drift_second import bound_wave, wavenumbers
 from ogilvie.hydro.files import read_hydro
 from ogilvie.hydro.qtf import mirrored, symmetry_defect, with_qtf
@@ -39,12 +39,12 @@ def sphere():
 
 @pytest.fixture(scope="module")
 def near(sphere):
-    return qtf(sphere, afloat(sphere), omega=OMEGA, wave_direction=DIRECTIONS, method="near", **QUIET)
+    return difference_qtf(sphere, afloat(sphere), omega=OMEGA, wave_direction=DIRECTIONS, method="near", **QUIET)
 
 
 @pytest.fixture(scope="module")
 def control(sphere):
-    return qtf(sphere, afloat(sphere), omega=OMEGA, wave_direction=DIRECTIONS, pairs=True, **QUIET)
+    return difference_qtf(sphere, afloat(sphere), omega=OMEGA, wave_direction=DIRECTIONS, pairs=True, **QUIET)
 
 
 # --- closed forms
@@ -71,7 +71,9 @@ def cylinder(kR):
 @pytest.mark.parametrize("method", ["near", "control_surface"])
 def test_deep_cylinder_agrees_with_diffraction_theory(method):
     kR = np.array([0.8, 1.0, 1.4, 2.0])
-    Q = qtf(shapes.cylinder(1.0, 3.0, panels=800), omega=np.sqrt(G * kR), wave_direction=[0.0], method=method, **QUIET)
+    Q = difference_qtf(
+        shapes.cylinder(1.0, 3.0, panels=800), omega=np.sqrt(G * kR), wave_direction=[0.0], method=method, **QUIET
+    )
     exact = cylinder(kR)
     assert abs(exact[0, 3].imag) > 0.3  # far from real: Newman's rules have no such part
     np.testing.assert_allclose(Q.qtf_diff[..., 0, 0] / UNIT, exact, atol=0.012 * np.abs(exact).max())
@@ -94,7 +96,7 @@ def test_equal_frequencies_give_the_mean_drift(sphere, near, control):
 
 def test_moments_about_the_moving_origin_on_the_diagonal(sphere):
     keys = {"omega": OMEGA[:2], "wave_direction": [0.6], "method": "near", **QUIET}
-    Q = qtf(sphere, afloat(sphere), moments="body", **keys).qtf_diff.values
+    Q = difference_qtf(sphere, afloat(sphere), moments="body", **keys).qtf_diff.values
     drift = mean_drift(sphere, afloat(sphere), moments="body", **keys).mean_drift
     np.testing.assert_allclose(np.einsum("wwbi->wbi", Q), drift, atol=1e-12 * UNIT)
     np.testing.assert_allclose(Q[..., 3:] / UNIT, 0.0, atol=0.01)  # pressure on a sphere has no moment about its centre
@@ -114,7 +116,9 @@ def test_control_surface_and_near_field_agree_on_a_sphere(near, control):
 
 def test_methods_agree_in_shallow_water(sphere):
     keys = {"omega": OMEGA[[0, 2]], "wave_direction": [0.3], "water_depth": 1.6, **QUIET}
-    one, two = (qtf(sphere, afloat(sphere), method=m, **keys).qtf_diff.values[..., 0, :] / UNIT for m in ("near", "auto"))
+    one, two = (
+        difference_qtf(sphere, afloat(sphere), method=m, **keys).qtf_diff.values[..., 0, :] / UNIT for m in ("near", "auto")
+    )
     size = np.abs(two).max(axis=(0, 1))
     assert np.all((np.abs(one - two).max(axis=(0, 1)) / size)[:5] < [0.01, 0.01, 0.04, 0.02, 0.02])
 
@@ -124,8 +128,8 @@ def test_sharp_edges_need_the_control_surface():
     keys = {"omega": [1.6, 2.2, 2.8], "wave_direction": np.radians([135.0]), **QUIET}
     body = afloat(hull, zg=0.0, gyradii=(0.7, 2.5, 2.5))
     with pytest.warns(OgilvieWarning, match="diagonal that is the drift of the far field"):
-        rough = qtf(hull, body, method="near", **keys).qtf_diff.values[..., 0, :]
-    fine = qtf(hull, body, **keys)
+        rough = difference_qtf(hull, body, method="near", **keys).qtf_diff.values[..., 0, :]
+    fine = difference_qtf(hull, body, **keys)
     Q, far = fine.qtf_diff.values[..., 0, :], fine.mean_drift_momentum.values[:, 0]
     size = np.abs(far).max(axis=0)
     diagonal = np.einsum("wwi->wi", Q).real
@@ -139,7 +143,10 @@ def test_sharp_edges_need_the_control_surface():
 def test_near_the_diagonal_newman_holds_in_second_order(sphere):
     d = 0.2
     w = 4.2 + d * np.array([-1.0, -0.5, 0.0, 0.5, 1.0])
-    Q = qtf(sphere, afloat(sphere), omega=w, wave_direction=[0.0], method="near", **QUIET).qtf_diff.values[..., 0, 0] / UNIT
+    Q = (
+        difference_qtf(sphere, afloat(sphere), omega=w, wave_direction=[0.0], method="near", **QUIET).qtf_diff.values[..., 0, 0]
+        / UNIT
+    )
     off = [Q[i, j] - 0.5 * (Q[i, i] + Q[j, j]) for i, j in ((0, 4), (1, 3))]
     assert off[0].real / off[1].real == pytest.approx(4.0, rel=0.05)
     assert off[0].imag / off[1].imag == pytest.approx(2.0, rel=0.05)
@@ -163,7 +170,7 @@ def test_pinkster_adds_a_scaled_first_order_force(depth):
     hull = shapes.hemisphere(1.0, panels=200)
     w = np.array([3.0, 3.6])
     keys = {"omega": w, "wave_direction": [0.6], "water_depth": depth, "method": "near", **QUIET}
-    added = (qtf(hull, second_order="pinkster", **keys) - qtf(hull, **keys)).qtf_diff.values[..., 0, :]
+    added = (difference_qtf(hull, second_order="pinkster", **keys) - difference_qtf(hull, **keys)).qtf_diff.values[..., 0, :]
     k = wavenumber(w, depth, g=G)
     kappa = k[1] - k[0]
     long = np.sqrt(G * kappa * (1.0 if np.isinf(depth) else np.tanh(kappa * depth)))
@@ -178,7 +185,9 @@ def test_pinkster_adds_a_scaled_first_order_force(depth):
 def test_pinkster_tends_to_nothing_in_deep_water(sphere):
     w = 3.0 + np.array([0.0, 0.05, 0.1])
     keys = {"omega": w, "wave_direction": [0.0], "method": "near", **QUIET}
-    added = (qtf(sphere, second_order="pinkster", **keys) - qtf(sphere, **keys)).qtf_diff.values[..., 0, :]
+    added = (difference_qtf(sphere, second_order="pinkster", **keys) - difference_qtf(sphere, **keys)).qtf_diff.values[
+        ..., 0, :
+    ]
     assert abs(added[2, 0, 2] / added[1, 0, 2]) == pytest.approx(2.0, rel=0.1)
     assert abs(added[2, 0, 0] / added[1, 0, 0]) == pytest.approx(4.0, rel=0.15)  # surge: pressure times its slope
 
@@ -222,7 +231,7 @@ def test_body_elsewhere_meets_the_groups_later(method):
         warnings.simplefilter("ignore", OgilvieWarning)  # sharp edges
         one = afloat(hull, zg=0.0)
         there = RigidBody(one.mass, one.cog + d, one.inertia)
-        here, moved = qtf(hull, one, **keys), qtf(hull.translated(d), there, **keys)
+        here, moved = difference_qtf(hull, one, **keys), difference_qtf(hull.translated(d), there, **keys)
     k = w**2 / G
     late = np.exp(-1j * (k[:, None] - k[None]) * (d[0] * np.cos(beta) + d[1] * np.sin(beta)))[..., None]
     expected = here.qtf_diff.values[..., 0, :] * late
@@ -261,10 +270,10 @@ def test_fields_of_the_mean_drift_are_used_again(tmp_path, monkeypatch):
     monkeypatch.setattr("ogilvie.hydro.drift_store.cache_folder", lambda: tmp_path)
     keys = {**QUIET, "omega": [3.0, 3.4], "wave_direction": [0.0], "cache": True}
     mean_drift(hull, afloat(hull), method="near", **keys)
-    monkeypatch.setattr(drift_run, "solve_sources", lambda *a, **k: pytest.fail("solved again"))
-    first = qtf(hull, afloat(hull), **keys)
-    monkeypatch.setattr(drift_run, "fields_at", lambda *a, **k: pytest.fail("evaluated again"))
-    np.testing.assert_array_equal(qtf(hull, afloat(hull), **keys).qtf_diff, first.qtf_diff)
+    monkeypatch.setattr(drift_solver, "solve_sources", lambda *a, **k: pytest.fail("solved again"))
+    first = difference_qtf(hull, afloat(hull), **keys)
+    monkeypatch.setattr(drift_solver, "fields_at", lambda *a, **k: pytest.fail("evaluated again"))
+    np.testing.assert_array_equal(difference_qtf(hull, afloat(hull), **keys).qtf_diff, first.qtf_diff)
 
 
 # --- refusals
@@ -274,18 +283,18 @@ def test_fields_of_the_mean_drift_are_used_again(tmp_path, monkeypatch):
     ("change", "words"),
     [
         ({"omega": [3.0]}, "two frequencies or more"),
-        ({"omega": [-1.0, 2.0]}, "qtf: omega"),
-        ({"method": "far"}, "qtf: method: one of auto"),
+        ({"omega": [-1.0, 2.0]}, "difference_qtf: omega"),
+        ({"method": "far"}, "difference_qtf: method: one of auto"),
         ({"second_order": "full"}, "second_order: one of none"),
         ({"second_order": "pinkster", "pairs": True}, "waves of one direction"),
         ({"rotation": "YXZ"}, "rotation"),
         ({"moments": "ship"}, "moments"),
-        ({"damping": np.eye(6)}, "qtf: damping and stiffness"),
-        ({"workers": 0}, "qtf: workers"),
-        ({"water_depth": 0.5}, "qtf: water_depth"),
+        ({"damping": np.eye(6)}, "difference_qtf: damping and stiffness"),
+        ({"workers": 0}, "difference_qtf: workers"),
+        ({"water_depth": 0.5}, "difference_qtf: water_depth"),
     ],
 )
 def test_what_cannot_be_done_is_refused(change, words):
     keys = {"omega": [3.0, 3.3], "wave_direction": [0.0], **QUIET, **change}
     with pytest.raises(InputError, match=words):
-        qtf(shapes.hemisphere(1.0, panels=60), **keys)
+        difference_qtf(shapes.hemisphere(1.0, panels=60), **keys)

@@ -65,9 +65,10 @@ def test_still_water_on_a_moved_box_agrees_with_exact_hydrostatics(order, seed):
         wave=SimpleNamespace(rho=RHO, g=G, omega=1.0, directions=[0.0]),
         hull=hull,
         motion=X,
-        elevation=lambda rule: np.zeros((1, len(hull.waterline.owner)), dtype=complex),
+        line=hull.waterline,
+        elevation=np.zeros((1, len(hull.waterline.owner)), dtype=complex),
     )
-    found = (found + waterline_force(still, "edge")).real[0, 0]
+    found = (found + waterline_force(still)).real[0, 0]
     scale = RHO * G * np.abs([50, 50, 50, 200, 200, 200])
     assert np.abs(found - exact).max() < 2e-3 * scale.max()
     np.testing.assert_allclose(found / scale, exact / scale, atol=4e-4)

@@ -18,7 +18,7 @@ from ogilvie.hydro.drift_encounter import placed_pairs, waves_met
 from ogilvie.hydro.drift_far import amplitude
 from ogilvie.hydro.drift_inputs import checked_case, checked_dynamics
 from ogilvie.hydro.drift_panels import WholeHull
-from ogilvie.hydro.drift_run import Solver
+from ogilvie.hydro.drift_solver import Solver
 from ogilvie.hydro.rao import rao
 from ogilvie.mesh import shapes
 

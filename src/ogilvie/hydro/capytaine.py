@@ -31,6 +31,7 @@ from ogilvie.hydro.bem_result import assemble
 from ogilvie.hydro.bem_store import SolutionStore
 from ogilvie.hydro.bem_table import near_surface
 from ogilvie.hydro.cache import cache_folder, fill_folder
+from ogilvie.hydro.drift_centre import Dipoles
 from ogilvie.hydro.drift_solve import Sources
 from ogilvie.hydro.progress import tracked
 from ogilvie.hydro.threads import available_cores, library_threads
@@ -235,6 +236,16 @@ def source_influence(green: Any, facets: Facets, k: float, depth: float) -> Sour
                 "Leave this frequency out."
             ) from e
         return S.conj(), G.conj()
+
+    return influence
+
+
+def dipole_influence(green: Any, facets: Facets, k: float, depth: float) -> Dipoles:
+    """Return the influence of sources and dipoles on all panels, in the convention exp(+i omega t)."""
+
+    def influence(mirror: Array) -> tuple[Complex, Complex]:
+        S, D = _influence(green, facets, k, depth, mirror)
+        return S.conj(), D.conj()
 
     return influence
 

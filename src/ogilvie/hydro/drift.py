@@ -1,7 +1,7 @@
 """Mean drift forces from the panel solution, by three methods side by side."""
 
 import warnings
-from typing import Literal, get_args
+from typing import get_args
 
 import numpy as np
 import xarray as xr
@@ -10,16 +10,13 @@ from numpy.typing import ArrayLike
 from ogilvie.body import RigidBody
 from ogilvie.errors import InputError, OgilvieWarning
 from ogilvie.hydro.bem_case import Irregular
-from ogilvie.hydro.drift_first import WaterlineRule
-from ogilvie.hydro.drift_inputs import checked_case, checked_dynamics
+from ogilvie.hydro.drift_inputs import Moments, WaterlineRule, checked_case, checked_dynamics
 from ogilvie.hydro.drift_result import Method, as_dataset
 from ogilvie.hydro.drift_run import Options, drifts
 from ogilvie.hydro.drift_static import Rotation
 from ogilvie.hydro.threads import available_cores
 from ogilvie.mesh.panels import PanelMesh
 from ogilvie.units import GRAVITY, SEA_WATER
-
-Moments = Literal["space", "body"]
 
 
 def mean_drift(
@@ -71,7 +68,9 @@ def mean_drift(
     moments : {"space", "body"}
         About the fixed mean origin, or about the origin that moves with the body (WAMIT's negative modes).
     waterline : {"edge", "centre"}
-        Potential at the edges of the waterline, or at the centres of its panels, as in low-order codes.
+        "centre": the near field as codes of flat panels do it, for comparison with WAMIT's ``.9`` files on the same mesh: the
+        elevation is taken at the centres of the panels along the waterline, flare and velocity are as the panels give them
+        (:mod:`ogilvie.hydro.drift_centre`). It is up to 70 % off where "edge" is within 1 %. At rest only.
     pairs : bool
         Add ``mean_drift_pairs`` for two waves of one frequency from different directions; at rest, since at speed they are met
         at different frequencies.
@@ -164,6 +163,10 @@ def mean_drift(
         raise InputError(
             "mean_drift: pairs: False expected at speed, where waves of two directions are met at two frequencies."
         )
+    if speed != 0.0 and waterline == "centre":
+        raise InputError(
+            "mean_drift: waterline: 'edge' expected at speed, 'centre' found: it is there to compare with codes at rest."
+        )
     if speed != 0.0 and method == "far" and np.isfinite(water_depth):
         raise InputError(
             f"mean_drift: method: deep water expected for the far field at speed, {water_depth:.4g} m found. "
@@ -173,7 +176,7 @@ def mean_drift(
         raise InputError(f"mean_drift: workers: a number of threads >= 1 or None expected, {workers!r} found.")
     options = Options(
         rotation=rotation,
-        waterline=waterline,
+        centre=waterline == "centre",
         control=method in ("auto", "control_surface"),
         cache=cache,
         workers=workers or available_cores(),

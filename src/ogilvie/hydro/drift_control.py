@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ogilvie.hydro.drift_first import FirstOrder, WaterlineRule
+from ogilvie.hydro.drift_first import FirstOrder
 from ogilvie.hydro.drift_forms import EPSILON, integral, with_moment
 from ogilvie.hydro.drift_near import OnHull, displacement, on_hull, strip_force, turned
 from ogilvie.hydro.drift_panels import Waterline, WholeHull
@@ -64,9 +64,7 @@ def on_surface(first: FirstOrder, surface: ControlSurface, fields: Fields) -> On
     return OnSurface(surface, K, surface.split(phi, len(images)), surface.split(v, len(images)), excess)
 
 
-def control_drift(
-    first: FirstOrder, surface: ControlSurface, fields: Fields, *, rotation: Rotation, waterline: WaterlineRule
-) -> dict[str, Complex]:
+def control_drift(first: FirstOrder, surface: ControlSurface, fields: Fields, *, rotation: Rotation) -> dict[str, Complex]:
     """Return the terms (n_b, n_b, 6) of the mean force and moment about the fixed origin; the drift is their sum.
 
     Parameters
@@ -75,10 +73,10 @@ def control_drift(
     surface : ControlSurface
     fields : Fields
         The stored potentials at ``surface.points``.
-    rotation, waterline
+    rotation
         As in :func:`ogilvie.hydro.drift_near.near_field`.
     """
-    waves, outer, w = on_hull(first, waterline), on_surface(first, surface, fields), first.wave
+    waves, outer, w = on_hull(first), on_surface(first, surface, fields), first.wave
     terms = control_terms(waves, outer, first.hull, rotation=rotation, rho=w.rho, g=w.g)
     del terms["rate"]
     return terms

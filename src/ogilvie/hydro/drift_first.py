@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +9,7 @@ from numpy.typing import NDArray
 from ogilvie.errors import ConvergenceError
 from ogilvie.hydro.bem_forces import SPEED_TERMS
 from ogilvie.hydro.bem_waves import incident
-from ogilvie.hydro.drift_panels import WholeHull
+from ogilvie.hydro.drift_panels import Waterline, WholeHull
 from ogilvie.hydro.drift_slope import Slopes
 from ogilvie.hydro.drift_solve import Fields, expanded, incident_wave
 from ogilvie.hydro.drift_wave import Dynamics, Wave
@@ -18,7 +17,6 @@ from ogilvie.hydro.speed_terms import momentum_at_speed, split
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-WaterlineRule = Literal["edge", "centre"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,17 +30,19 @@ class FirstOrder:
     ----------
     wave : Wave
     hull : WholeHull
-    slopes : Slopes
-        Neighbours of the panels along the hull.
+    slopes : Slopes or None
+        Neighbours of the panels along the hull. None: as codes of flat panels with constant values do it, velocities as the
+        panels give them, the elevation at the waterline that of the panel's centre, the flare that of the panel.
     fields : Fields
-        The six radiated and the n_b diffracted potentials of :func:`ogilvie.hydro.drift_solve.solve_sources`.
+        The six radiated and the n_b diffracted potentials of :func:`ogilvie.hydro.drift_solve.solve_sources`, or of
+        :func:`ogilvie.hydro.drift_centre.solve_centres` for `slopes` None.
     dynamics : Dynamics or None
         None for a fixed body.
     """
 
     wave: Wave
     hull: WholeHull
-    slopes: Slopes
+    slopes: Slopes | None
     fields: Fields
     dynamics: Dynamics | None
 
@@ -106,8 +106,15 @@ class FirstOrder:
         return self._total(self.hull.centers, self.fields)[0]
 
     @cached_property
+    def line(self) -> Waterline:
+        """Edges on z = 0."""
+        return self.hull.panel_waterline if self.slopes is None else self.hull.waterline
+
+    @cached_property
     def velocity(self) -> Complex:
         """Total velocity (n_b, n, 3) of the water at the panels, m/s."""
+        if self.slopes is None:
+            return self._total(self.hull.centers, self.fields)[1]
         n_b, n_hull = len(self.wave.directions), self.hull.panels.n_hull
         sigma = self.strengths.reshape(n_b, len(self.hull.panels.images), -1)[:, :, :n_hull].reshape(n_b, -1)
         return np.asarray(self._total(self.hull.centers, self.fields)[1] + self.slopes.missing(sigma))
@@ -126,28 +133,28 @@ class FirstOrder:
         """Return the total potential (n_b, n) and velocity (n_b, n, 3) at points (n, 3) with the fields there."""
         return self._total(points, fields)
 
-    def at_waterline(self, rule: WaterlineRule) -> Complex:
-        """Return the total potential (n_b, n) at the waterline's edges.
+    @cached_property
+    def at_waterline(self) -> Complex:
+        """Total potential (n_b, n) at the waterline's edges.
 
         Notes
         -----
-        "edge": phi_S(c) + grad phi_S(c) . (m - c) from the panel's centre c to the middle m of its edge, phi_I at m. "centre":
-        the panel's value as it is.
+        phi_S(c) + grad phi_S(c) . (m - c) from the panel's centre c to the middle m of its edge, phi_I at m; the panel's value
+        as it is for `slopes` None.
         """
-        line = self.hull.waterline
-        if rule == "centre":
-            return self.potential[:, line.owner]
-        return np.asarray(self.scattered_line[0] + self.incident(line.middle)[0])
+        if self.slopes is None:
+            return self.potential[:, self.line.owner]
+        return np.asarray(self.scattered_line[0] + self.incident(self.line.middle)[0])
 
-    def elevation(self, rule: WaterlineRule) -> Complex:
-        """Return the total elevation (n_b, n) -(i omega_e phi - U d phi/dx)/g at the waterline's edges; see `at_waterline`."""
-        w, line = self.wave, self.hull.waterline
-        eta = -1j * w.omega_e / w.g * self.at_waterline(rule)
+    @cached_property
+    def elevation(self) -> Complex:
+        """Total elevation (n_b, n) -(i omega_e phi - U d phi/dx)/g at the waterline's edges; see `at_waterline`."""
+        w = self.wave
+        eta = -1j * w.omega_e / w.g * self.at_waterline
         if w.speed == 0.0:
-            return eta
-        if rule == "centre":
-            return np.asarray(eta + w.speed / w.g * self.velocity[:, line.owner, 0])
-        return np.asarray(eta + w.speed / w.g * (self.scattered_line[1] + self.incident(line.middle)[1][..., 0]))
+            return np.asarray(eta)
+        along = self.scattered_line[1] + self.incident(self.line.middle)[1][..., 0]
+        return np.asarray(eta + w.speed / w.g * along)
 
     @cached_property
     def scattered_line(self) -> tuple[Complex, Complex]:

@@ -1,6 +1,7 @@
 """What is asked of the second-order forces, checked: hull and water, and the body that moves."""
 
 import warnings
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,6 +14,8 @@ from ogilvie.mesh.hydrostatics import hydrostatics
 from ogilvie.mesh.panels import PanelMesh
 
 Array = NDArray[np.float64]
+Moments = Literal["space", "body"]
+WaterlineRule = Literal["edge", "centre"]
 
 _AFLOAT = 0.015  # part of the displacement by which a free body's weight may differ from its buoyancy
 _STANDING = 0.01  # part of the frequency below which that of encounter counts as zero

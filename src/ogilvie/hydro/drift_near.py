@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ogilvie.hydro.drift_first import FirstOrder, WaterlineRule
+from ogilvie.hydro.drift_first import FirstOrder
 from ogilvie.hydro.drift_forms import cross_mean, integral, with_moment
 from ogilvie.hydro.drift_panels import Waterline, WholeHull
 from ogilvie.hydro.drift_static import Rotation, static_force
@@ -38,6 +38,8 @@ class OnHull:
         Integral of (d/dt - U d/dx) phi (n, x x n) dS, by Tuck's theorem.
     momentum : (m, 6) array
         Integral of phi (n, x x n) dS.
+    line : Waterline
+        Edges on z = 0.
     elevation, potential : (m, n_l) array
         At the middles of the waterline's edges.
     force : (m, 3) array
@@ -51,6 +53,7 @@ class OnHull:
     velocity: Complex
     loads: Complex
     momentum: Complex
+    line: Waterline
     elevation: Complex
     potential: Complex
     force: Complex
@@ -65,7 +68,7 @@ class OnHull:
         return np.asarray(V)
 
 
-def on_hull(first: FirstOrder, rule: WaterlineRule) -> OnHull:
+def on_hull(first: FirstOrder) -> OnHull:
     """Return the quantities of one frequency, one wave per direction."""
     w = first.wave
     return OnHull(
@@ -74,23 +77,23 @@ def on_hull(first: FirstOrder, rule: WaterlineRule) -> OnHull:
         velocity=first.velocity,
         loads=first.rate_of_momentum(first.potential),
         momentum=first.momentum(first.potential),
-        elevation=first.elevation(rule),
-        potential=first.at_waterline(rule),
+        line=first.line,
+        elevation=first.elevation,
+        potential=first.at_waterline,
         force=first.pressure_force,
         speed=w.speed,
     )
 
 
-def near_field(first: FirstOrder, *, rotation: Rotation, waterline: WaterlineRule) -> dict[str, Complex]:
+def near_field(first: FirstOrder, *, rotation: Rotation) -> dict[str, Complex]:
     """Return the terms (n_b, n_b, 6) of the mean force and moment about the fixed origin; the drift is their sum.
 
     Parameters
     ----------
     first : FirstOrder
     rotation : {"ZYX", "XYZ"}
-    waterline : {"edge", "centre"}
     """
-    return near_terms(on_hull(first, waterline), first.hull, rotation=rotation, rho=first.wave.rho, g=first.wave.g)
+    return near_terms(on_hull(first), first.hull, rotation=rotation, rho=first.wave.rho, g=first.wave.g)
 
 
 def near_terms(waves: OnHull, hull: WholeHull, *, rotation: Rotation, rho: float, g: float) -> dict[str, Complex]:
@@ -122,7 +125,7 @@ def near_terms(waves: OnHull, hull: WholeHull, *, rotation: Rotation, rho: float
         along = np.sum([integral(X[..., i], v[..., i], dS[:, :3]) for i in range(3)], axis=0)
         shifted[..., 3:] += waves.speed * np.cross([1.0, 0.0, 0.0], along)
     return {
-        "waterline": strip_force(waves.elevation, waves.motion, hull.waterline, rho * g),
+        "waterline": strip_force(waves.elevation, waves.motion, waves.line, rho * g),
         "velocity": 0.5 * rho * velocity,
         "displacement": rho * shifted,
         "rotation": rho * turned(waves.motion, waves.loads),
@@ -130,10 +133,10 @@ def near_terms(waves: OnHull, hull: WholeHull, *, rotation: Rotation, rho: float
     }
 
 
-def waterline_force(first: FirstOrder, rule: WaterlineRule) -> Complex:
+def waterline_force(first: FirstOrder) -> Complex:
     """Return -rho g/2 oint <zeta_r^2> n/(1 - n_z^2)^(1/2) dl and its moment (n_b, n_b, 6)."""
     w = first.wave
-    return strip_force(first.elevation(rule), first.motion, first.hull.waterline, w.rho * w.g)
+    return strip_force(first.elevation, first.motion, first.line, w.rho * w.g)
 
 
 def strip_force(eta: Complex, motion: Complex, line: Waterline, unit: float) -> Complex:

@@ -10,11 +10,10 @@ from numpy.typing import NDArray
 from ogilvie.hydro.bem_case import SHALLOWEST, Case
 from ogilvie.hydro.drift_control import OnSurface, control_terms, on_surface
 from ogilvie.hydro.drift_far import far_field
-from ogilvie.hydro.drift_first import WaterlineRule
 from ogilvie.hydro.drift_forms import cross_mean
 from ogilvie.hydro.drift_near import OnHull, near_terms, on_hull
-from ogilvie.hydro.drift_run import Solver
 from ogilvie.hydro.drift_second import bound_force, wavenumbers
+from ogilvie.hydro.drift_solver import Solver
 from ogilvie.hydro.drift_static import Rotation
 from ogilvie.hydro.drift_surface import control_surface
 from ogilvie.hydro.drift_wave import Dynamics, Wave
@@ -29,10 +28,10 @@ QtfMethod = Literal["auto", "near", "control_surface"]
 
 @dataclass(frozen=True)
 class Choice:
-    """How the forces are evaluated; see :func:`ogilvie.hydro.drift_qtf.qtf`."""
+    """How the forces are evaluated; see :func:`ogilvie.hydro.drift_qtf.difference_qtf`."""
 
     rotation: Rotation
-    waterline: WaterlineRule
+    centre: bool
     method: QtfMethod
     second_order: SecondOrder
     about_body: bool
@@ -76,10 +75,13 @@ def quadratic_forces(
     surface = None
     if choice.method != "near":
         surface = control_surface(solver.hull, k=float(case.k.max()), depth=case.depth)
-    waves, outer, far, radiation, excitation = [], [], [], [], []
+    waves, beside, outer, far, radiation, excitation = [], [], [], [], [], []
     for i in tracked(range(len(case.omega)), show=progress, title=f"second order of {case.panels.hull.name}"):
-        first = solver.first_order(_wave(case, float(case.omega[i]), float(case.k[i])), dynamics)
-        waves.append(on_hull(first, choice.waterline))
+        wave = _wave(case, float(case.omega[i]), float(case.k[i]))
+        first = solver.first_order(wave, dynamics)
+        waves.append(on_hull(first))
+        if choice.centre:
+            beside.append(on_hull(solver.first_order_at_centres(wave, dynamics)))
         radiation.append(first.radiation)
         excitation.append(first.excitation)
         far.append(np.einsum("bbi->bi", far_field(first).force).real)
@@ -90,7 +92,7 @@ def quadratic_forces(
     solver.finish()
     n_w, n_b = len(case.omega), len(case.direction)
     groups = [np.arange(n_b)] if choice.pairs else [np.array([b]) for b in range(n_b)]
-    forms, methods = zip(*[_form(waves, outer, group, solver, case, choice) for group in groups], strict=True)
+    forms, methods = zip(*[_form(waves, beside or waves, outer, group, solver, case, choice) for group in groups], strict=True)
     A, B = (np.array(values) for values in zip(*radiation, strict=True))
     order = np.array(far), A, B, np.array(excitation), np.array([w.motion for w in waves])
     if choice.pairs:
@@ -105,11 +107,21 @@ def _wave(case: Case, omega: float, k: float) -> Wave:
 
 
 def _form(
-    waves: list[OnHull], outer: list[OnSurface], group: Ints, solver: Solver, case: Case, choice: Choice
+    waves: list[OnHull],
+    beside: list[OnHull],
+    outer: list[OnSurface],
+    group: Ints,
+    solver: Solver,
+    case: Case,
+    choice: Choice,
 ) -> tuple[Complex, tuple[str, ...]]:
-    """Return the force (m, m, 6) of the waves of a group of directions at all frequencies, m = n_w len(group)."""
-    all_waves, hull, rotation, rho, g = _side_by_side(waves, group), solver.hull, choice.rotation, case.rho, case.g
-    near = np.sum(list(near_terms(all_waves, hull, rotation=rotation, rho=rho, g=g).values()), axis=0)
+    """Return the force (m, m, 6) of the waves of a group of directions at all frequencies, m = n_w len(group).
+
+    `beside` has the first order of the near field.
+    """
+    all_waves, near_waves = (_side_by_side(each, group) for each in (waves, beside))
+    hull, rotation, rho, g = solver.hull, choice.rotation, case.rho, case.g
+    near = np.sum(list(near_terms(near_waves, hull, rotation=rotation, rho=rho, g=g).values()), axis=0)
     best, chosen = near, ["near"] * 6
     if outer:
         around = _around(outer, group)
@@ -120,14 +132,15 @@ def _form(
         chosen = ["control_surface" if yes else "near" if choice.method == "auto" else "none" for yes in known]
     if choice.about_body:
         best = best.copy()
-        best[..., 3:] -= cross_mean(all_waves.motion[:, :3], all_waves.force)
+        shift, near_shift = (cross_mean(each.motion[:, :3], each.force) for each in (all_waves, near_waves))
+        best[..., 3:] -= np.where([name == "near" for name in chosen[3:]], near_shift, shift)
     return np.asarray(0.5 * (best + best.conj().swapaxes(0, 1))), tuple(chosen)  # rounding would show where all is zero
 
 
 def _side_by_side(waves: Sequence[OnHull], group: Ints) -> OnHull:
     names = ("omega", "motion", "velocity", "loads", "momentum", "elevation", "potential", "force")
     parts = {name: np.concatenate([getattr(w, name)[group] for w in waves]) for name in names}
-    return OnHull(**parts, speed=0.0)
+    return OnHull(**parts, line=waves[0].line, speed=0.0)
 
 
 def _around(outer: Sequence[OnSurface], group: Ints) -> OnSurface:

@@ -1,6 +1,6 @@
 """The whole hull and its waterline, copies of the stored panels included."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -100,6 +100,13 @@ class WholeHull:
         owner, below = (np.concatenate([part + c * n for c in range(copies)]) for part in (one.owner, one.below))
         length, beyond = np.tile(one.length, copies), np.tile(one.beyond, copies)
         return Waterline(owner, self.copied(one.middle), self.copied(one.normal), length, below, beyond)
+
+    @cached_property
+    def panel_waterline(self) -> Waterline:
+        """Edges of all panels with the flare of the top panels as it is, not extrapolated to z = 0."""
+        line = self.waterline
+        slope = _tangent_of_flare(self.normals[line.owner])
+        return replace(line, normal=np.column_stack([line.normal[:, :2], slope]))
 
     def copied(self, vectors: Array) -> Array:
         """Return vectors (n, 3) of the stored panels, mirrored to all copies (n_c n, 3)."""

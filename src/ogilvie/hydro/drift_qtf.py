@@ -1,7 +1,7 @@
 """Forces at the difference of two frequencies from the panel solution: the full quadratic transfer function."""
 
 import warnings
-from typing import Literal, get_args
+from typing import get_args
 
 import numpy as np
 import xarray as xr
@@ -10,8 +10,7 @@ from numpy.typing import ArrayLike
 from ogilvie.body import RigidBody
 from ogilvie.errors import InputError, OgilvieWarning
 from ogilvie.hydro.bem_case import Case, Irregular
-from ogilvie.hydro.drift_first import WaterlineRule
-from ogilvie.hydro.drift_inputs import checked_case, checked_dynamics
+from ogilvie.hydro.drift_inputs import Moments, WaterlineRule, checked_case, checked_dynamics
 from ogilvie.hydro.drift_pairs import Choice, QtfMethod, Quadratic, SecondOrder, quadratic_forces
 from ogilvie.hydro.drift_static import Rotation
 from ogilvie.hydro.qtf import with_qtf
@@ -20,12 +19,10 @@ from ogilvie.hydro.threads import available_cores
 from ogilvie.mesh.panels import PanelMesh
 from ogilvie.units import GRAVITY, SEA_WATER
 
-Moments = Literal["space", "body"]
-
 _LIMIT = 0.10  # beyond this part of the largest drift the diagonal is named
 
 
-def qtf(
+def difference_qtf(
     hull: PanelMesh,
     body: RigidBody | None = None,
     *,
@@ -116,12 +113,19 @@ def qtf(
     --------
     >>> from ogilvie.mesh.shapes import hemisphere
     >>> hull = hemisphere(1.0, panels=100)
-    >>> Q = qtf(hull, omega=[3.5, 4.0], rho=1000.0, method="near", cache=False, workers=1).qtf_diff
+    >>> Q = difference_qtf(hull, omega=[3.5, 4.0], rho=1000.0, method="near", cache=False, workers=1).qtf_diff
     >>> Q.shape, bool(np.allclose(Q[0, 1], Q[1, 0].conj())), bool(Q[0, 1, 0, 0].real < 0)  # pushed astern
     ((2, 2, 1, 6), True, True)
     """
     case = checked_case(
-        hull, irregular_frequencies, purpose="qtf", omega=omega, direction=wave_direction, rho=rho, g=g, depth=water_depth
+        hull,
+        irregular_frequencies,
+        purpose="difference_qtf",
+        omega=omega,
+        direction=wave_direction,
+        rho=rho,
+        g=g,
+        depth=water_depth,
     )
     for name, value, allowed in (
         ("second_order", second_order, SecondOrder),
@@ -131,15 +135,19 @@ def qtf(
         ("waterline", waterline, WaterlineRule),
     ):
         if value not in get_args(allowed):
-            raise InputError(f"qtf: {name}: one of {', '.join(get_args(allowed))} expected, {value!r} found.")
+            raise InputError(f"difference_qtf: {name}: one of {', '.join(get_args(allowed))} expected, {value!r} found.")
     if len(case.omega) < 2:
-        raise InputError("qtf: omega: two frequencies or more expected, one found. For one frequency use mean_drift.")
+        raise InputError(
+            "difference_qtf: omega: two frequencies or more expected, one found. For one frequency use mean_drift."
+        )
     if pairs and second_order != "none":
-        raise InputError("qtf: pairs: second_order='none' expected, 'pinkster' found: it holds for waves of one direction.")
+        raise InputError(
+            "difference_qtf: pairs: second_order='none' expected, 'pinkster' found: it holds for waves of one direction."
+        )
     if workers is not None and (isinstance(workers, bool) or not isinstance(workers, int) or workers < 1):
-        raise InputError(f"qtf: workers: a number of threads >= 1 or None expected, {workers!r} found.")
-    choice = Choice(rotation, waterline, method, second_order, moments == "body", pairs)
-    dynamics = checked_dynamics(case, body, damping, stiffness, purpose="qtf")
+        raise InputError(f"difference_qtf: workers: a number of threads >= 1 or None expected, {workers!r} found.")
+    choice = Choice(rotation, waterline == "centre", method, second_order, moments == "body", pairs)
+    dynamics = checked_dynamics(case, body, damping, stiffness, purpose="difference_qtf")
     found = quadratic_forces(case, dynamics, choice, cache=cache, workers=workers or available_cores(), progress=progress)
     result = _as_dataset(found, case).assign_attrs(
         moments=moments,
@@ -166,7 +174,7 @@ def _as_dataset(found: Quadratic, case: Case) -> xr.Dataset:
         g=case.g,
         water_depth=case.depth,
         name=case.panels.hull.name,
-        source="ogilvie.qtf",
+        source="ogilvie.difference_qtf",
     )
     hydro["mean_drift_momentum"] = hydro.mean_drift.dims, found.far
     result = with_qtf(hydro, omega=case.omega, qtf_diff=found.same)
@@ -185,8 +193,9 @@ def _warn_of_diagonal(result: xr.Dataset) -> None:
     difference = float(np.abs(diagonal - far).max() / max(np.abs(far).max(), np.finfo(float).tiny))
     if difference > _LIMIT:
         warnings.warn(
-            f"qtf: a diagonal that is the drift of the far field expected, {100 * difference:.2g} % of the largest surge and "
-            "sway drift between them found. Use a finer mesh, method='control_surface', or frequencies the mesh resolves.",
+            f"difference_qtf: a diagonal that is the drift of the far field expected, {100 * difference:.2g} % of the largest "
+            "surge and sway drift between them found. Use a finer mesh, method='control_surface', or frequencies that the mesh "
+            "resolves.",
             OgilvieWarning,
             stacklevel=3,
         )

@@ -32,17 +32,17 @@ _WORDS = {"pressure": "near field", "control_surface": "control surface", "momen
 def as_dataset(case: Case, found: Sequence[Drift], *, method: Method, moments: str, pairs: bool) -> xr.Dataset:
     """Return the data set of :func:`ogilvie.hydro.drift.mean_drift`."""
     full = {name: np.array([dict(pairs_of(d))[name] for d in found]) for name, _ in pairs_of(found[0])}
-    shift = np.zeros_like(full["pressure"])
-    shift[..., 3:] = [d.shift for d in found]
+    shift, near_shift = np.zeros_like(full["pressure"]), np.zeros_like(full["pressure"])
+    shift[..., 3:], near_shift[..., 3:] = [d.shift for d in found], [d.near_shift for d in found]
     best, chosen = _best(full, method)
     if moments == "body":
-        best = best - shift
+        best = best - np.where([name == "pressure" for name in chosen], near_shift, shift)
     taken = ", ".join(f"{dof}: {name}" for dof, name in zip(DOFS, chosen, strict=True))
     variables = {
         "mean_drift": (_DIMS, _alone(best), {"method": taken}),
     }
     variables |= {f"mean_drift_{name}": (_DIMS, _alone(value), {}) for name, value in full.items()}
-    variables["mean_drift_pressure_body"] = (_DIMS, _alone(full["pressure"] - shift), {})
+    variables["mean_drift_pressure_body"] = (_DIMS, _alone(full["pressure"] - near_shift), {})
     result = xr.Dataset(variables, coords={"omega": case.omega, "wave_direction": case.direction, "influenced_dof": list(DOFS)})
     result["motion_rao"] = (_DIMS, np.array([d.motion for d in found]))
     for name, terms in (("pressure", [d.near for d in found]), ("control_surface", [d.control for d in found])):

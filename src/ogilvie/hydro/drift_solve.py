@@ -105,7 +105,7 @@ def solve_sources(
 
     n_hull, n_all = panels.n_hull, panels.n_hull + panels.n_lid
     table = parities(panels)
-    velocity = _normal_velocities(panels, table, k=k, directions=directions, depth=depth)
+    velocity = normal_velocities(panels, table, k=k, directions=directions, depth=depth)
     copies = [sources(panels.facets.centers, image) for image in panels.images]
     if not all(np.all(np.isfinite(S)) and np.all(np.isfinite(G)) for S, G in copies):
         raise ConvergenceError(
@@ -179,7 +179,7 @@ def incident_wave(x: Array, *, k: float, directions: Array, depth: float) -> tup
     return level, np.stack([-1j * k * cos * level, -1j * k * sin * level, df * phase], axis=-1)
 
 
-def _normal_velocities(panels: HullPanels, table: Array, *, k: float, directions: Array, depth: float) -> Complex:
+def normal_velocities(panels: HullPanels, table: Array, *, k: float, directions: Array, depth: float) -> Complex:
     """Return the prescribed normal velocity (6 + n_b, n_par, n_hull) at the centres by parity."""
     n_c, n_hull = len(panels.images), panels.n_hull
     v = np.zeros((6 + len(directions), n_c, n_hull), dtype=complex)

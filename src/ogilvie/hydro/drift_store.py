@@ -44,8 +44,8 @@ class FieldStore:
             Of the radiated waves, rad/m.
         directions : (n_b,) array
             rad.
-        where : {"hull", "control"}
-            At the hull's panels or at the control surface.
+        where : {"hull", "centres", "control"}
+            At the hull's panels, in either way of solving, or at the control surface.
         incident : float, optional
             Wavenumber of the incident waves where it is another one, at speed, rad/m.
         """

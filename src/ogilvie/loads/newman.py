@@ -148,6 +148,6 @@ def _mean_drift(hydro: xr.Dataset, variable: str) -> xr.DataArray:
         diagonal = np.einsum("ppbi->pbi", Q.values).real
         return xr.DataArray(diagonal, dims=("omega", "wave_direction", "influenced_dof"), coords=coords)
     raise InputError(
-        f"SlowDrift: {variable} (or qtf_diff) expected in the data set, not found. Read a .8, .9 or .12d file, or give it to "
+        f"{variable} (or qtf_diff) expected in the data set, not found. Read a .8, .9 or .12d file, or give it to "
         f"hydro_from_arrays. Components: {', '.join(DOFS)}."
     )

@@ -185,3 +185,43 @@ class SlowDrift:
                 stacklevel=2,
             )
         return Terms(table=self._force.tabulate, encounter=self._force.encounter(surroundings.heading, self.position))
+
+
+def slow_drift_force(sea: Sea, qtf: xr.Dataset, t: ArrayLike, *, heading: float = 0.0, speed: float = 0.0) -> Array:
+    """Return mean and slowly varying drift force of a sea from a full quadratic transfer function.
+
+    Parameters
+    ----------
+    sea : Sea
+    qtf : xarray.Dataset
+        With ``qtf_diff`` or ``qtf_diff_pairs``: of :func:`ogilvie.difference_qtf`, :func:`ogilvie.newman` or a .12d file.
+    t : (n_t,) array
+        Equally spaced times, s.
+    heading, speed : float
+        Steady course of the vessel, rad, m/s.
+
+    Returns
+    -------
+    (n_t, 6) or (n_realisations, n_t, 6) array
+        In axes along the heading, about O; see :class:`SlowDrift`, whose ``series`` this is.
+
+    Raises
+    ------
+    InputError
+        Data that are missing or known in part; a sea that they do not cover.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from ogilvie.hydro.schema import hydro_from_arrays
+    >>> from ogilvie.loads.newman_qtf import newman
+    >>> from ogilvie.waves.sea import bichromatic
+    >>> w, Z = np.linspace(0.2, 2.0, 10), np.zeros((10, 6, 6))
+    >>> D = np.ones((10, 1, 6)) * -1e4 * w[:, None, None] ** 2
+    >>> hydro = hydro_from_arrays(omega=w, added_mass=Z, radiation_damping=Z, wave_direction=[np.pi], mean_drift=D)
+    >>> sea = bichromatic(height=(2.0, 2.0), period=(7.0, 8.0), direction=np.pi)
+    >>> force = slow_drift_force(sea, newman(hydro, "arithmetic"), np.arange(0.0, 560.0, 0.5))  # ten groups of 56 s
+    >>> float(force[:, 0].mean().round(-1))
+    -14230.0
+    """
+    return SlowDrift(qtf, "full").series(sea, t, heading=heading, speed=speed)

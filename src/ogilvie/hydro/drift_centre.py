@@ -1,0 +1,89 @@
+"""First-order fields as codes of flat panels with constant potentials have them, to compare with their files (kernel).
+
+Potentials follow from Green's theorem, with the whole potential of the diffraction problem as the unknown,
+
+    (1/2 + D) phi_j = S n_j,   (1/2 + D) (phi_I + phi_D) = phi_I   on the hull,
+
+velocities from sources, (1/2 + K) sigma = v, without any correction for the curvature of the hull or the slope of sigma.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ogilvie.errors import ConvergenceError
+from ogilvie.hydro.bem_panels import HullPanels
+from ogilvie.hydro.drift_solve import Corrections, Fields, Sources, incident_wave, normal_velocities, parities, solve_sources
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+#: Mirror signs (3,) -> S and D (n_s, n_s) at the mirrored centres due to the stored panels, free term in D, exp(+i omega t).
+Dipoles = Callable[[Array], tuple[Complex, Complex]]
+
+
+def solve_centres(
+    panels: HullPanels,
+    sources: Sources,
+    dipoles: Dipoles,
+    *,
+    damping: Array,
+    k: float,
+    K: float,
+    directions: Array,
+    depth: float,
+) -> Fields:
+    """Return the fields of :func:`ogilvie.hydro.drift_solve.solve_sources` in this way.
+
+    Parameters
+    ----------
+    panels : HullPanels
+    sources, dipoles : callable
+        See :data:`ogilvie.hydro.drift_solve.Sources` and :data:`Dipoles`.
+    damping : (n_lid,) array
+        Of the lid under the sources; the potential's lid is rigid.
+    k, K : float
+        Wavenumber, rad/m, and omega^2/g, 1/m.
+    directions : (n_b,) array
+        rad.
+    depth : float
+        m.
+
+    Raises
+    ------
+    ConvergenceError
+        The influence matrices hold NaN.
+
+    Notes
+    -----
+    The second equation is that of the scattered wave, (1/2 + D) phi_D = -S d phi_I/dn, and Green's theorem for phi_I inside the
+    hull, (1/2 - D) phi_I = -S d phi_I/dn, together; with panels the two differ by O(h). On a lid the theorem reads
+    phi_I = D phi_I - S d phi_I/dn, so the right side is phi_I there too.
+    """
+    flat = Corrections(np.zeros(panels.n_hull), damping)
+    found = solve_sources(panels, sources, corrections=flat, k=k, K=K, directions=directions, depth=depth)
+    table = parities(panels)
+    copies = [dipoles(image) for image in panels.images]
+    if not all(np.all(np.isfinite(S)) and np.all(np.isfinite(D)) for S, D in copies):
+        raise ConvergenceError(
+            "second-order forces: the influence matrices hold NaN or infinite numbers. Panels may overlap or have no area; "
+            "look at the mesh with ogilvie.mesh.inspect.check_mesh."
+        )
+    radiated = normal_velocities(panels, table, k=k, directions=directions, depth=depth)[:6]
+    whole = _incident(panels, table, k=k, directions=directions, depth=depth)
+    n_hull, potential = panels.n_hull, np.zeros_like(found.potential)
+    for s, signs in enumerate(table):
+        S, D = (sum(sign * pair[i] for sign, pair in zip(signs, copies, strict=True)) for i in (0, 1))
+        right = np.concatenate([S[:, :n_hull] @ radiated[:, s].T, whole[:, s].T], axis=1)
+        potential[:, s] = np.linalg.solve(D, right)[:n_hull].T
+    potential[6:] -= whole[:, :, :n_hull]
+    return replace(found, potential=potential)
+
+
+def _incident(panels: HullPanels, table: Array, *, k: float, directions: Array, depth: float) -> Complex:
+    """Return the incident waves (n_b, n_par, n_s) at the centres of hull and lid by parity."""
+    x = panels.facets.centers
+    at = np.stack([incident_wave(x * image, k=k, directions=directions, depth=depth)[0] for image in panels.images], axis=1)
+    return np.einsum("sc,bcp->bsp", table, at) / len(panels.images)
