@@ -66,6 +66,24 @@ def test_t_junctions_are_no_holes():
     assert faults["open edges"] == 6  # the rim: 2 below, 2 x 2 at the ends
 
 
+def test_staggered_t_junctions_are_no_holes():
+    """Three panels above two: the side of the middle one runs along parts of both below, and neither holds it whole."""
+    x3, x2 = np.linspace(0.0, 3.0, 4), np.array([0.0, 1.5, 3.0])
+    above = [[x, 0.0, z] for z in (-1.0, 0.0) for x in x3]
+    below = [[x, 0.0, z] for z in (-2.0, -1.0) for x in x2]
+    faces = [[i, i + 1, i + 5, i + 4] for i in range(3)] + [[8 + i, 9 + i, 12 + i, 11 + i] for i in range(2)]
+    wall = PanelMesh(above + below, faces)
+    faults = _faults(wall)
+    assert faults["T-junction edges"] == 5
+    assert faults["open edges"] == 2 + 4  # below, and both ends; the waterline may be open
+    gap = PanelMesh(above + below, [f for k, f in enumerate(faces) if k != 4])  # half of the row below is missing
+    assert (
+        _faults(gap)["open edges"] == 1 + 4 + 2
+    )  # below, the ends, the last side above and the middle one, half of which is open
+    holed = PanelMesh(above + below, [f for k, f in enumerate(faces) if k != 3])
+    assert _faults(holed)["open edges"] == _faults(gap)["open edges"]
+
+
 def test_duplicate_vertices_and_identical_panels(box):
     hull = box(high=0.0, deck=False)
     loose = PanelMesh(hull.vertices[hull.faces].reshape(-1, 3), np.arange(4 * hull.n_faces).reshape(-1, 4))

@@ -11,6 +11,8 @@ Faces = NDArray[np.int64]
 
 #: Axis that a plane is normal to: planes of symmetry and the still water.
 NORMAL_AXIS = {"xz": 1, "yz": 0, "xy": 2}
+_ALONG = 0.9  # cosine of the angle up to which edges run along each other
+_WHOLE = 0.99  # of an edge, covered by others
 
 
 def compact(vertices: Array, faces: Faces) -> tuple[Array, Faces]:
@@ -164,8 +166,8 @@ def open_edges(vertices: Array, faces: Faces, *, planes: tuple[str, ...], tolera
 def without_t_junctions(vertices: Array, start: Faces, end: Faces, *, tolerance: float) -> NDArray[np.bool_]:
     """Return True for those open edges that do not run along other open edges (of a patch with another division).
 
-    An edge is part of a T-junction if both its ends lie within `tolerance` (m) of one other edge that runs the other way, or
-    if another such edge has both its ends on it.
+    An edge is part of a T-junction if both its ends lie within `tolerance` (m) of one other edge that runs the other way, if
+    another such edge has both its ends on it, or if several such edges together cover all of it.
     """
     if len(start) == 0:
         return np.zeros(0, dtype=bool)
@@ -173,8 +175,17 @@ def without_t_junctions(vertices: Array, start: Faces, end: Faces, *, tolerance:
     first, second = index[: len(start)], index[len(start) :]
     a, d = vertices[start], vertices[end] - vertices[start]
     on = np.array([_on_edge(vertices[p], a, d, tolerance) for p in points])  # (n_points, n_edges)
-    covered = on[first] & on[second] & (d @ d.T < 0.0)  # row: an edge; column: the edge that it lies on
-    return np.asarray(~(covered.any(axis=0) | covered.any(axis=1)))
+    opposite = d @ d.T
+    within = on[first] & on[second] & (opposite < 0.0)  # row: an edge; column: the edge that it lies on
+    length = np.linalg.norm(d, axis=1)
+    shared = (first[:, None] == first) | (second[:, None] == second) | (first[:, None] == second) | (second[:, None] == first)
+    met = (on[first] | on[second]) & (on[first] | on[second]).T & ~shared  # one end of each lies on the other
+    met &= opposite < -_ALONG * np.outer(length, length)
+    i, j = np.nonzero(met)
+    t = np.einsum("cei,ei->ce", vertices[np.stack([start[j], end[j]])] - a[i], d[i]) / np.maximum(length[i] ** 2, 1e-300)
+    part = np.bincount(i, np.abs(np.diff(np.clip(t, 0.0, 1.0), axis=0))[0], minlength=len(start)) * length
+    inside = length @ within
+    return np.asarray(~(within.any(axis=0) | within.any(axis=1) | (part + inside > _WHOLE * length)))
 
 
 def _on_edge(point: Array, a: Array, d: Array, tolerance: float) -> NDArray[np.bool_]:
