@@ -5,9 +5,10 @@ import pytest
 
 from ogilvie.errors import InputError
 from ogilvie.mesh import shapes
+from ogilvie.mesh.conforming import conforming
 from ogilvie.mesh.fitting import fitted
 from ogilvie.mesh.flat_ends import flat_end
-from ogilvie.mesh.flattening import _harmonic, conforming, flattened
+from ogilvie.mesh.flattening import _harmonic, flattened
 from ogilvie.mesh.panels import PanelMesh
 
 SHIPS = {

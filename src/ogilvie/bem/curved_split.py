@@ -64,9 +64,10 @@ def side_points(points: Array, side: int) -> Array:
 
 
 def _waterline_sides(mesh: CurvedMesh, part: int) -> list[tuple[int, int]]:
-    """Panel and side of all sides at z = 0 of one part."""
+    """Panel and side of all sides at z = 0 of one part; corners that stand for a side are none."""
     near = 1e-8 * mesh.radius
-    on = [(np.abs(side_points(mesh.points, s)[..., 2]).max(axis=1) < near) & (mesh.part == part) for s in range(4)]
+    along = [side_points(mesh.points, s) for s in range(4)]
+    on = [(np.abs(p[..., 2]).max(axis=1) < near) & (np.ptp(p, axis=1).max(axis=1) > near) & (mesh.part == part) for p in along]
     return [(int(i), s) for s in range(4) for i in np.flatnonzero(on[s])]
 
 

@@ -15,6 +15,7 @@ Array = NDArray[np.float64]
 
 _ENDS = 0.3  #: slope of the division along the ship at its ends: panels there are about a third of the mean
 _MORE = 1.1  #: times as many panels as equal ones of the given size
+_MORE_GRADED = 1.25  #: the same on either side of a chine
 _TURN = 0.15  #: of the panels, as many as go to a turn by 180 deg
 _STEEP = 1.5  #: slope of the edge of a flat end up to which panels stand upright in it
 _LEAST = (8, 3)  #: panels along and across
@@ -63,8 +64,8 @@ def fitted_panels(hull: PanelMesh, *, size: float, q: int) -> FittedHull:
     Notes
     -----
     Panels get smaller towards waterline (as 1/n^2), stem and stern. A shallow transom is filled with upright panels, another
-    flat end with panels of three sides, from its edge to where centreline and waterline meet. Other knuckles are rounded off
-    within a span of the splines.
+    flat end with panels of three sides, from its edge to where centreline and waterline meet. Towards a chine that runs from
+    end to end panels get smaller too. Other knuckles are rounded off within a span of the splines.
 
     Examples
     --------
@@ -112,6 +113,9 @@ def _divisions(sheet: Sheet, size: float) -> tuple[Array, Array]:
     along, girth = sheet.at(t, across), sheet.at(across[2:-2], t).swapaxes(0, 1)
     out = []
     for lines, least, slopes in zip((along, girth), _LEAST, ((_ENDS, _ENDS), (1.0, 0.0)), strict=True):
+        if lines is girth and sheet.chine > 0.0:
+            out.append(_beside_chine(girth, t, sheet.chine, size))
+            continue
         step = np.linalg.norm(np.diff(lines, axis=0), axis=-1)  # (400, lines)
         tangent = np.diff(lines, axis=0) / np.maximum(step, 1e-300)[..., None]
         turn = np.zeros(len(t))
@@ -121,6 +125,21 @@ def _divisions(sheet: Sheet, size: float) -> tuple[Array, Array]:
         weight = travel / travel[-1] + _TURN * np.cumsum(turn) / np.pi + 1e-9 * t
         out.append(np.interp(divisions(n, start=slopes[0], end=slopes[1]), weight / weight[-1], t))
     return _through(out[0], sheet.kinks), out[1]
+
+
+def _beside_chine(girth: Array, t: Array, chine: float, size: float) -> Array:
+    """Return the divisions of v with panels that get smaller towards the chine, from both sides, and to the waterline."""
+    step = np.linalg.norm(np.diff(girth, axis=0), axis=-1)  # (400, lines)
+    travel = np.r_[0.0, np.cumsum(step.mean(axis=1))]
+    longest = np.vstack([np.zeros(step.shape[1]), np.cumsum(step, axis=0)])
+    parts = []
+    for low, high, start in ((0.0, chine, 2.0), (chine, 1.0, 0.0)):
+        a, b = (np.interp(x, t, travel) for x in (low, high))
+        length = max(float(np.interp(high, t, one) - np.interp(low, t, one)) for one in longest.T)
+        n = max(2 + (start == 0.0), int(np.ceil(_MORE_GRADED * length / size - 0.3)))
+        parts.append(np.interp(a + (b - a) * divisions(n, start=start, end=0.0), travel, t))
+        parts[-1][[0, -1]] = low, high
+    return np.concatenate([parts[0], parts[1][1:]])
 
 
 def _through(breaks: Array, kinks: tuple[float, ...]) -> Array:

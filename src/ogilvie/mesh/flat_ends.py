@@ -43,7 +43,7 @@ def flat_end(vertices: Array, tri: Ints, *, end: int, near: float) -> tuple[NDAr
 
     Examples
     --------
-    >>> from ogilvie.mesh.flattening import conforming
+    >>> from ogilvie.mesh.conforming import conforming
     >>> from ogilvie.mesh.shapes import box
     >>> v, t = conforming(box(10.0, 4.0, 2.0, panels=200).with_symmetry("xz"), 1e-6)
     >>> mask, edge = flat_end(v, t, end=1, near=1e-6)
@@ -52,7 +52,7 @@ def flat_end(vertices: Array, tri: Ints, *, end: int, near: float) -> tuple[NDAr
     """
     none = np.zeros(len(tri), dtype=bool), list[int]()
     low, high = float(vertices[:, 0].min()), float(vertices[:, 0].max())
-    owner, turn = _across(vertices, tri)
+    owner, turn = across(vertices, tri)
     start = {f for (a, b), f in owner.items() if _runs_across(vertices, a, b, near) and (b, a) not in owner}
     start = {f for f in start if _within(vertices[tri[f]], low, high, end)}
     region, stack = set(start), list(start)
@@ -73,7 +73,7 @@ def flat_end(vertices: Array, tri: Ints, *, end: int, near: float) -> tuple[NDAr
     return mask, edge
 
 
-def _across(vertices: Array, tri: Ints) -> tuple[dict[tuple[int, int], int], dict[tuple[int, int], float]]:
+def across(vertices: Array, tri: Ints) -> tuple[dict[tuple[int, int], int], dict[tuple[int, int], float]]:
     """Return the triangle on each directed edge, and the turn of the normal between neighbours, rad."""
     n = np.cross(vertices[tri[:, 1]] - vertices[tri[:, 0]], vertices[tri[:, 2]] - vertices[tri[:, 0]])
     n /= np.maximum(np.linalg.norm(n, axis=1, keepdims=True), 1e-300)

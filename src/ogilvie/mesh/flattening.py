@@ -6,9 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ogilvie.errors import InputError
+from ogilvie.mesh.chine import Chine, find_chine
+from ogilvie.mesh.conforming import conforming
 from ogilvie.mesh.flat_ends import flat_end
 from ogilvie.mesh.panels import PanelMesh
-from ogilvie.mesh.topology import compact, edges, merge_vertices
+from ogilvie.mesh.topology import edges
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -16,6 +18,8 @@ Ints = NDArray[np.int64]
 _WELD = 1e-6  #: of the length, vertices nearer to each other are one; up to 100 times as much where gaps ask for it
 _KINK, _BROAD = np.deg2rad(40.0), 0.1  #: least turn of the waterline, and share of the half beam, that make a kink
 _REACH = 0.15  #: of the length that counts, at the ends of the keel, as much as the draught
+_FOOT = 0.15  #: of the profile up to which a chine that ends on it meets the keel there
+_TIP = 9  #: places of one vertex where bottom or keel ends in a point
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,12 +34,19 @@ class Flattened:
         u from stern (0) to bow (1), v from keel (0) to waterline (1).
     triangles : (m, 3) int array
     side : (n,) int array
-        -1 inside; 0 stern profile (u = 0), 1 bow profile (u = 1), 2 keel (v = 0), 3 waterline (v = 1); corners count as
-        keel or waterline.
+        -1 inside; 0 stern profile (u = 0), 1 bow profile (u = 1), 2 keel (v = 0), 3 waterline (v = 1), 4 chine; corners count
+        as keel or waterline.
     flat_ends : pair of bool
         Whether u = 0 and u = 1 are edges of a flat stern and bow, which are left out, instead of profiles in y = 0.
     kinks : tuple of int
         Vertices where the waterline turns by more than 40 deg, at a tenth of the half beam or more.
+    chine : float
+        v of the chine, 0 where there is none.
+    pinned : tuple of int
+        Vertices that keep their place on the square: kinks, corners, ends of the chine, and the copies, at several v, of a
+        vertex at which keel and chine meet.
+    tips : tuple of int
+        Those vertices, which stand for the places from v = 0 up to the chine.
     """
 
     vertices: Array
@@ -44,6 +55,9 @@ class Flattened:
     side: Ints
     flat_ends: tuple[bool, bool] = (False, False)
     kinks: tuple[int, ...] = ()
+    chine: float = 0.0
+    pinned: tuple[int, ...] = ()
+    tips: tuple[int, ...] = ()
 
 
 def flattened(hull: PanelMesh) -> Flattened:
@@ -64,7 +78,9 @@ def flattened(hull: PanelMesh) -> Flattened:
     Borders are spread by length: waterline on v = 1, keel on v = 0, the profiles at stern and bow on u = 0 and 1. The profile
     is keel between the two points that are lowest and farthest out together (x over 15 % of the length plus depth over
     draught). At a flat end its edge takes the place of the profile. Inside, each vertex is the mean of its neighbours
-    weighted by mean values: such a map is one to one, whatever the triangles.
+    weighted by mean values: such a map is one to one, whatever the triangles. A chine from end to end becomes a line of
+    constant v, and bottom and side are spread apart from each other; where the bottom ends in a point, that point becomes a
+    side of the square.
 
     References
     ----------
@@ -93,12 +109,85 @@ def flattened(hull: PanelMesh) -> Flattened:
     for k, (_, edge) in enumerate(ends):
         if edge:
             corners[k], corners[2 + k] = loop.index(edge[-1]), loop.index(edge[0])
-    uv, side = _on_border(vertices, loop, corners)
+    is_flat = (bool(ends[0][1]), bool(ends[1][1]))
+    chine, corners, tips = _with_chine(vertices, tri, loop, corners, is_flat)
+    uv, side = _on_border(vertices, loop, corners, chine)
+    _spread(vertices, tri, uv, side, chine, tips)
     used, index = np.unique(tri, return_inverse=True)
-    inner = used[side[used] == -1]
-    uv[inner] = _harmonic(vertices, tri, uv, inner)
-    flat = Flattened(vertices[used], uv[used], index.reshape(tri.shape), side[used], (bool(ends[0][1]), bool(ends[1][1])))
-    return replace(flat, kinks=_kinks(flat))
+    flat = Flattened(vertices[used], uv[used], index.reshape(tri.shape), side[used], is_flat)
+    return _finished(flat, chine.share if chine else 0.0, tips)
+
+
+def _with_chine(
+    vertices: Array, tri: Ints, loop: list[int], corners: list[int], is_flat: tuple[bool, bool]
+) -> tuple[Chine | None, list[int], tuple[bool, bool]]:
+    """Return the chine, the corners and, for stern and bow, whether the bottom ends in a point (at a corner, then)."""
+    stern, bow, low_stern, low_bow = corners
+    sides = [_between(loop, a, b, [c for c in corners if c not in (a, b)]) for a, b in ((low_stern, low_bow), (stern, bow))]
+    chine = find_chine(vertices, tri, keel=sides[0], waterline=sides[1], loop=loop)
+    if chine is None:
+        return None, corners, (False, False)
+    corners, tips = list(corners), [False, False]
+    for k, (i, top) in enumerate(((chine.line[0], stern), (chine.line[-1], bow))):
+        profile = _between(loop, corners[2 + k], top, [c for c in corners if c not in (corners[2 + k], top)])
+        at = profile.index(i) / len(profile) if i in profile else 0.0
+        tips[k] = not is_flat[k] and at < _FOOT
+        if tips[k]:
+            corners[2 + k] = loop.index(i)
+        elif i not in profile:  # it ends on the keel of a flat end
+            return None, list(corners), (False, False)
+    return chine, corners, (tips[0], tips[1])
+
+
+def _spread(vertices: Array, tri: Ints, uv: Array, side: Ints, chine: Chine | None, tips: tuple[bool, bool]) -> None:
+    """Put the inner vertices into `uv`, those below and above the chine apart from each other.
+
+    A bottom that ends in points is spread between the chine and a convex line below it, which is then drawn down to v = 0.
+    """
+    if chine is None:
+        inner = _inner(tri, side)
+        uv[inner] = _harmonic(vertices, tri, uv, inner)
+        return
+    share = chine.share
+    inner = _inner(tri[~chine.below], side)
+    above = np.stack([uv[:, 0], np.maximum(uv[:, 1], share)], axis=1)
+    uv[inner] = _harmonic(vertices, tri[~chine.below], above, inner)
+    inner = _inner(tri[chine.below], side)
+    lens = np.stack([uv[:, 0], share - (share - uv[:, 1]) * _depth(uv[:, 0], tips)], axis=1)
+    u, v = _harmonic(vertices, tri[chine.below], lens, inner).T
+    uv[inner] = np.stack([u, share - (share - v) / np.maximum(_depth(u, tips), 1e-9)], axis=1)
+
+
+def _inner(tri: Ints, side: Ints) -> Ints:
+    used = np.unique(tri)
+    return np.asarray(used[side[used] == -1])
+
+
+def _depth(u: Array, tips: tuple[bool, bool]) -> Array:
+    """Return the depth of the line below the chine, as part of that of the keel: concave, zero at points."""
+    depth = (u if tips[0] else 1.0) * ((1.0 - u) if tips[1] else 1.0)
+    return np.asarray((4.0 if all(tips) else 1.0) * depth + 0.0 * u)
+
+
+def _finished(flat: Flattened, share: float, tips: tuple[bool, bool]) -> Flattened:
+    """Return the map with its pinned vertices, and with copies of a vertex at which the bottom ends."""
+    kinks = _kinks(flat)
+    corner = (np.abs(flat.uv - 0.5) == 0.5).all(axis=1)
+    ends = (flat.side == 4) & np.isin(flat.uv[:, 0], (0.0, 1.0))
+    pinned = [*kinks, *np.flatnonzero(corner | ends).tolist()]
+    vertices, uv, side = [flat.vertices], [flat.uv], [flat.side]
+    count, at = len(flat.vertices), []
+    for k in (0, 1):
+        if tips[k]:
+            v = np.linspace(0.0, share, _TIP)[1:]
+            at.append(int(np.flatnonzero((flat.uv == (float(k), 0.0)).all(axis=1))[0]))
+            vertices.append(np.tile(flat.vertices[at[-1]], (len(v), 1)))
+            uv.append(np.stack([np.full(len(v), float(k)), v], axis=1))
+            side.append(np.full(len(v), k))
+            pinned += range(count, count + len(v))
+            count += len(v)
+    whole = replace(flat, vertices=np.concatenate(vertices), uv=np.concatenate(uv), side=np.concatenate(side))
+    return replace(whole, kinks=kinks, chine=share, pinned=tuple(pinned), tips=tuple(at))
 
 
 def _kinks(flat: Flattened) -> tuple[int, ...]:
@@ -109,44 +198,6 @@ def _kinks(flat: Flattened) -> tuple[int, ...]:
     angle = np.arctan2(turn, (step[:-1] * step[1:]).sum(axis=1))
     broad = flat.vertices[line[1:-1], 1] > _BROAD * flat.vertices[:, 1].max()
     return tuple(line[1:-1][(angle > _KINK) & broad].tolist())
-
-
-def conforming(hull: PanelMesh, near: float) -> tuple[Array, Ints]:
-    """Return vertices and triangles of a hull, with the vertices that lie on another panel's side made corners of it."""
-    vertices, faces = merge_vertices(hull.vertices, hull.faces, tolerance=near)
-    for axis in (1, 2):
-        vertices[np.abs(vertices[:, axis]) <= near, axis] = 0.0
-    start, end, _ = edges(faces)
-    directed = set(zip(start.tolist(), end.tolist(), strict=True))
-    hanging: dict[tuple[int, int], list[int]] = {}
-    free = [(a, b) for a, b in directed if (b, a) not in directed]
-    candidates = np.unique(np.array(free, dtype=np.int64)) if free else np.zeros(0, dtype=np.int64)
-    for a, b in free:
-        d = vertices[b] - vertices[a]
-        t = (vertices[candidates] - vertices[a]) @ d / (d @ d)
-        off = np.linalg.norm(vertices[candidates] - vertices[a] - t[:, None] * d, axis=1)
-        on = (t > 1e-6) & (t < 1.0 - 1e-6) & (off <= 10.0 * near)
-        if on.any():
-            hanging[(a, b)] = candidates[on][np.argsort(t[on])].tolist()
-    polygons = [_with_hanging(f, hanging) for f in faces.tolist()]
-    middle = {i: len(vertices) + k for k, i in enumerate(i for i, p in enumerate(polygons) if len(p) > 4)}
-    added = np.array([vertices[polygons[i]].mean(axis=0) for i in middle]).reshape(-1, 3)
-    tri = [t for i, p in enumerate(polygons) for t in _triangles(p, middle.get(i))]
-    return compact(np.vstack([vertices, added]), np.array(tri, dtype=np.int64))
-
-
-def _with_hanging(face: list[int], hanging: dict[tuple[int, int], list[int]]) -> list[int]:
-    out: list[int] = []
-    for a, b in zip(face, [*face[1:], face[0]], strict=True):
-        if a != b:
-            out += [a, *hanging.get((a, b), [])]
-    return out
-
-
-def _triangles(polygon: list[int], middle: int | None) -> list[list[int]]:
-    if middle is not None:
-        return [[a, b, middle] for a, b in zip(polygon, [*polygon[1:], polygon[0]], strict=True)]
-    return [polygon] if len(polygon) == 3 else [polygon[:3], [polygon[0], polygon[2], polygon[3]]] if len(polygon) == 4 else []
 
 
 def _border(vertices: Array, tri: Ints, near: float, edges_of_ends: list[int]) -> list[int]:
@@ -186,18 +237,31 @@ def _corners(vertices: Array, loop: list[int], near: float) -> list[int]:
     return [int(stern), int(bow), int(keel[np.argmin(along + score)]), int(keel[np.argmax(along - score)])]
 
 
-def _on_border(vertices: Array, loop: list[int], corners: list[int]) -> tuple[Array, Ints]:
-    """Return (u, v) of the border's vertices, zeros elsewhere, and which side each vertex is on."""
+def _on_border(vertices: Array, loop: list[int], corners: list[int], chine: Chine | None) -> tuple[Array, Ints]:
+    """Return (u, v) of the vertices of border and chine, zeros elsewhere, and which side each vertex is on."""
     stern, bow, low_stern, low_bow = corners
     uv, side = np.zeros((len(vertices), 2)), np.full(len(vertices), -1)
     ends = {0: (low_stern, stern), 1: (low_bow, bow), 2: (low_stern, low_bow), 3: (stern, bow)}
     for k, (a, b) in ends.items():
         chain = _between(loop, a, b, [c for c in corners if c not in (a, b)])
-        length = np.cumsum(np.r_[0.0, np.linalg.norm(np.diff(vertices[chain], axis=0), axis=1)])
-        t = length / length[-1]
+        t = _along(vertices[chain])
+        if k < 2 and chine and chine.line[-k] in chain[:-1]:
+            at = t[chain.index(chine.line[-k])]
+            t = np.interp(t, [0.0, at, 1.0], [0.0, chine.share, 1.0]) if at > 0.0 else chine.share + (1.0 - chine.share) * t
         uv[chain] = np.stack([np.full(len(t), float(k)), t] if k < 2 else [t, np.full(len(t), k - 2.0)], axis=-1)
         side[chain] = k
+    if chine:
+        line, t = chine.line, _along(vertices[chine.line])
+        inner = slice(1, -1)
+        uv[line[inner]] = np.stack([t[inner], np.full(len(line) - 2, chine.share)], axis=1)
+        side[line] = np.where(np.isin(line, loop) & (side[line] == 2), 2, 4)
     return uv, side
+
+
+def _along(points: Array) -> Array:
+    """Return the share of the length of a line (n, 3) up to each of its points."""
+    length = np.cumsum(np.r_[0.0, np.linalg.norm(np.diff(points, axis=0), axis=1)])
+    return np.asarray(length / length[-1])
 
 
 def _between(loop: list[int], a: int, b: int, others: list[int]) -> list[int]:
