@@ -41,7 +41,7 @@ def test_lofted_ships_are_smooth_and_closed(name):
     hull = LOFTED[name]()
     mesh = inner_mesh(hull)
     assert mesh.notes[0].startswith("smooth surface fitted")
-    check(mesh, hull, volume=3e-3 if name == "barge" else 1.5e-3, nodes=1600)  # the barge's knuckles are rounded
+    check(mesh, hull, volume=3e-3 if name == "barge" else 1.5e-3, nodes=1900)  # the barge's knuckles are rounded
 
 
 def test_volume_of_lofted_ships_is_that_of_their_surface_at_any_number_of_panels():
@@ -56,7 +56,7 @@ def test_published_ships_are_smooth_and_closed(shared_data, name):
     hull = og.load_mesh(shared_data / FILES[name])
     mesh = inner_mesh(hull)
     assert mesh.notes[0].startswith("smooth surface fitted")
-    check(mesh, hull, volume=0.004, nodes=2200)
+    check(mesh, hull, volume=0.004, nodes=2500)
 
 
 @pytest.mark.parametrize(("name", "rms"), [("tanker", 0.0015), ("fpso", 0.0035), ("kvlcc2", 0.0015), ("dtmb5415", 0.0015)])

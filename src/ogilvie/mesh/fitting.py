@@ -133,7 +133,7 @@ def _least_squares(flat: Flattened, knots: tuple[Array, Array], weight: Array) -
 
 
 def _known(flat: Flattened, knots: Array, index: NDArray[np.int64]) -> dict[int, Array]:
-    """Return the coefficients that stand for a vertex in which the bottom ends: those of a side of the square up to the chine."""
+    """Return the coefficients that stand for a vertex in which the bottom ends: on a side of the square up to the chine."""
     last = int(np.searchsorted(knots, flat.chine)) - 1 if flat.chine > 0.0 else -1
     return {int(i): flat.vertices[tip] for tip in flat.tips for i in index[-int(flat.uv[tip, 0]), : last + 1]}
 
