@@ -233,7 +233,7 @@ def test_convex_waterlines_have_no_pairs_to_look_at():
 def test_rays_around_a_circle(tau, rays):
     """Wave action followed through the potential flow round a circle: 1 + 4 tau at first, less than twice the drift at rest.
 
-    The formula has half of the slope and more at high speed: docs/theory/drift.md, section 9, quotes these ratios.
+    The formula has half of the slope and more at high speed: docs/theory/drift.md, section 8, quotes these ratios.
     """
     rest = ray_force(0.0)
     assert rest == pytest.approx(4.0 / 3.0, rel=3e-3)

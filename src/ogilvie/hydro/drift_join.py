@@ -39,7 +39,7 @@ def joined_drift(long: xr.Dataset, short: xr.Dataset, *, band: tuple[float, floa
     -----
     (1 - c) long + c short, c = 3 p^2 - 2 p^3, with p from 1 to 0 over the band; each set between its frequencies by monotone
     cubics. This is an interpolation and no theory: at speed neither side is right inside the band, and the panel method may
-    lack most of the reflection below it (docs/theory/drift.md, section 9). At rest the panel method is right as far as its
+    lack most of the reflection below it (docs/theory/drift.md, section 8). At rest the panel method is right as far as its
     panels reach: move the band there.
 
     Examples

@@ -66,7 +66,7 @@ def short_wave_drift(
     c_g d - U e_x; nothing else of the hull lies on this ray.
 
     Deep water and a wall without flare, deeper than about half a wave length (exp(-2kT) of the energy passes below the draught
-    T); a hull that short waves do not move. What is right at low speed, and what is not: docs/theory/drift.md, section 9.
+    T); a hull that short waves do not move. What is right at low speed, and what is not: docs/theory/drift.md, section 8.
     Slow motion (moored, in a current) is for :class:`ogilvie.WaveDriftDamping` with the drift at rest.
 
     References
