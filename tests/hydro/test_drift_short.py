@@ -4,11 +4,12 @@ import warnings
 
 import numpy as np
 import pytest
+import xarray as xr
 from scipy.special import h2vp, jvp
 
 from ogilvie.errors import InputError
 from ogilvie.hydro.drift_contour import Contour, find_contour
-from ogilvie.hydro.drift_join import joined_drift
+from ogilvie.hydro.drift_join import _raised, joined_drift
 from ogilvie.hydro.drift_short import reflection, short_wave_drift, wall_force
 from ogilvie.hydro.schema import hydro_from_arrays, validate
 from ogilvie.loads.slow_drift import SlowDrift
@@ -331,38 +332,70 @@ def short():
     return short_wave_drift(hull, omega=np.linspace(0.7, 2.0, 14), wave_direction=[2.5, np.pi], speed=5.0, **WATER)
 
 
-def panel_method(short, omega):
-    """Stand in for the drift of the panel method: smooth in frequency, with yaw and heave but no roll."""
+def panel_method(short, omega, factor=1.0):
+    """Stand in for the drift of the panel method: falls with frequency, with heave but no roll."""
     w = np.asarray(omega)[:, None, None]
-    values = -1e4 * np.exp(-w) * np.array([1.0, 2.0, 3.0, np.nan, 0.0, 0.5]) * np.array([[1.0], [2.0]])
+    first = short.mean_drift.sel(influenced_dof=["surge", "sway", "yaw"]).isel(omega=0).values
+    values = np.full((len(w), short.sizes["wave_direction"], 6), np.nan)
+    values[..., [0, 1, 5]] = factor * first * (1.0 + 3.0 * np.exp(-(((w - 0.6) / 0.3) ** 2)))
+    values[..., 2] = 1e5
     coords = {"omega": omega, "wave_direction": short.wave_direction, "influenced_dof": short.influenced_dof}
-    attrs = {"rho": RHO, "g": G, "speed": 5.0, "water_depth": np.inf, "name": "panels"}
-    return short.drop_dims("omega").assign(mean_drift=(short.mean_drift.dims, values)).assign_coords(coords).assign_attrs(attrs)
+    attrs = {key: short.attrs[key] for key in ("rho", "g", "speed", "water_depth")}
+    return xr.Dataset({"mean_drift": (short.mean_drift.dims, values)}, coords=coords, attrs=attrs)
 
 
-def test_joined_drift_is_each_on_its_side_and_between_them_in_the_band(short):
-    long = panel_method(short, np.linspace(0.3, 1.3, 21))
-    joined = joined_drift(long, short, band=(0.4, 0.8))
-    ratio = 2.0 * np.pi * G / joined.omega.values**2 / 100.0
-    far, near = ratio >= 0.8, ratio <= 0.4
-    assert min(far.sum(), near.sum(), (~far & ~near).sum()) > 1
+def frequencies(one, ratio):
+    return np.sqrt(2.0 * np.pi * G / (np.asarray(ratio) * one.attrs["length"]))
+
+
+def test_at_speed_reflection_is_a_floor_of_surge_and_sway(short):
+    long = panel_method(short, np.linspace(0.3, 1.5, 41), factor=0.8)
+    joined = joined_drift(long, short)
+    at = np.intersect1d(joined.omega, short.omega)
+    at = at[(at >= frequencies(short, 0.8)) & (at <= 1.5)]
+    l, s, found = (one.mean_drift.sel(omega=at).values for one in (panel_method(short, at, factor=0.8), short, joined))
+    assert np.any(np.abs(l) > np.abs(s), axis=(0, 1))[0]
+    assert np.any(np.abs(l) < np.abs(s), axis=(0, 1))[0]
+    larger = np.where(np.abs(l) > np.abs(s), l, s)[..., :2]  # same signs here
+    np.testing.assert_allclose(found[..., :2], larger, rtol=2e-3)
+    np.testing.assert_allclose(found[..., 5], l[..., 5], rtol=2e-3)  # yaw is that of the panels
+    far = joined.omega.values[joined.omega.values <= frequencies(short, 1.2)]
     known = [0, 1, 5]
-    for side, one in ((far, long), (near, short)):
-        at = joined.omega.values[side]
-        np.testing.assert_allclose(joined.mean_drift.values[side][..., known], one.mean_drift.sel(omega=at).values[..., known])
-    c = joined.weight_short.values
-    assert np.all(np.diff(c) >= 0.0)
-    assert (c[0], c[-1]) == (0.0, 1.0)
-    at = np.flatnonzero((c > 0.0) & (c < 1.0) & np.isin(joined.omega.values, short.omega.values))
-    exact = panel_method(short, joined.omega.values[at]).mean_drift.values
-    mixed = (1 - c[at])[:, None, None] * exact + c[at][:, None, None] * short.mean_drift.sel(omega=joined.omega[at]).values
-    np.testing.assert_allclose(joined.mean_drift.values[at][..., known], mixed[..., known], rtol=1e-3)
+    np.testing.assert_allclose(joined.mean_drift.sel(omega=far)[..., known], long.mean_drift.sel(omega=far)[..., known])
     assert np.isnan(joined.mean_drift.values[..., [2, 3, 4]]).all()
     assert SlowDrift(joined).dofs == ("surge", "sway", "yaw")
 
 
+def test_floor_is_continuous_whatever_the_signs():
+    """Neither a change of sign of one nor of the other makes a jump; larger and of one sign is the rule."""
+    x = np.linspace(-2.0, 2.0, 801)
+    l, s = np.meshgrid(x, x)
+    both = [np.repeat(part.reshape(-1, 1, 1), 6, axis=2) for part in (l, s)]
+    found = _raised(*both, np.ones(l.size))[:, 0, 0].reshape(l.shape)
+    step = x[1] - x[0]
+    assert np.abs(np.diff(found, axis=0)).max() < 2.01 * step
+    assert np.abs(np.diff(found, axis=1)).max() < 2.01 * step
+    same = l * s >= 0.0
+    np.testing.assert_allclose(found[same], np.where(np.abs(l) > np.abs(s), l, s)[same], atol=1e-12)
+    np.testing.assert_allclose(found[s == 0.0], l[s == 0.0])
+    assert np.all(np.abs(found) <= np.maximum(np.abs(l), np.abs(s)) + 1e-12)
+
+
+def test_at_rest_the_panel_method_is_taken_as_far_as_it_goes():
+    hull, w = shapes.wigley(100.0, panels=300), np.linspace(0.7, 3.0, 24)
+    short = short_wave_drift(hull, omega=w, wave_direction=[2.5, np.pi], **WATER)
+    long = panel_method(short, w[:8], factor=0.1)
+    joined = joined_drift(long, short).mean_drift.values[..., [0, 1, 5]]
+    np.testing.assert_allclose(joined[:8], long.mean_drift.values[..., [0, 1, 5]])
+    half = w >= np.sqrt(2.0) * w[7]  # waves of half the length and shorter
+    np.testing.assert_allclose(joined[half], short.mean_drift.values[half][..., [0, 1, 5]])
+    between = joined[7:][~half[7:]]
+    steps = np.diff(np.concatenate([between, joined[half][:1]]), axis=0)
+    assert np.all((steps >= -1e-9).all(axis=0) | (steps <= 1e-9).all(axis=0))  # from one to the other
+
+
 def test_joining_a_drift_with_itself_changes_nothing(short):
-    joined = joined_drift(short, short, band=(0.3, 0.9))
+    joined = joined_drift(short, short)
     assert joined.omega.values.tolist() == short.omega.values.tolist()
     np.testing.assert_allclose(joined.mean_drift, short.mean_drift, rtol=1e-12)
 
@@ -370,8 +403,8 @@ def test_joining_a_drift_with_itself_changes_nothing(short):
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        (lambda one, other: (one.isel(omega=slice(8)), other), "long: frequencies up to 1.241 rad/s"),
-        (lambda one, other: (one, other.isel(omega=slice(4, None))), "short: frequencies from 0.8778 rad/s on"),
+        (lambda one, other: (one.isel(omega=slice(8)), other), "long: frequencies up to 0.8778 rad/s"),
+        (lambda one, other: (one, other.isel(omega=slice(4, None))), "short: frequencies from 0.7167 rad/s on"),
         (lambda one, other: (one.assign_attrs(speed=0.0), other), "attribute speed 5.0 of short expected, 0.0 found"),
         (lambda one, other: (one.assign_attrs(rho=1025.0), other), "attribute rho"),
         (lambda one, other: (one.assign_attrs(moments="body"), other), "moments"),
@@ -385,7 +418,7 @@ def test_joining_a_drift_with_itself_changes_nothing(short):
 def test_sets_that_cannot_be_joined(short, change, words):
     long, other = change(panel_method(short, np.linspace(0.3, 1.3, 21)), short)
     with pytest.raises(InputError, match=words):
-        joined_drift(long, other, band=(0.4, 0.8))
+        joined_drift(long, other)
 
 
 @pytest.mark.parametrize("band", [(0.8, 0.4), (0.0, 0.5), (0.5,), 0.5, (0.5, np.inf), ("a", "b")])

@@ -45,7 +45,7 @@ OMEGA = np.r_[0.25, 0.32, 0.38, 0.42, np.arange(0.46, 0.681, 0.02), 0.72, 0.78, 
 WAVES = np.r_[0.95, 1.0, 1.05, 1.108, 1.15, 1.2, 1.25, 1.384, 1.5, 1.75]  # lengths of waves over those of Wigley hulls
 WIGLEY = (("III", 0.3), ("I", 0.3), ("III", 0.4))
 TANKER_LENGTH, TANKER_BREADTH, TANKER_SPEED = 320.0, 58.0, 7.97  # m, m/s: Fr 0.142
-TANKER_WAVES = np.array([0.25, 0.3, 0.4, 0.5, 0.6, 0.7, 0.85, 1.0])  # lengths of waves over that of KVLCC2
+TANKER_WAVES = np.array([0.25, 0.3, 0.4, 0.5, 0.6, 0.7, 0.85, 1.0, 1.15, 1.3])  # lengths of waves over that of KVLCC2
 TANKER_BOW = np.radians([120.0, 150.0, 180.0])
 OFF_THE_BOW = (30.0, 60.0, 90.0)  # deg, of VERES's headings
 SHORTEST = 0.109  # wave length over L; shorter ones of VERES repeat one value
@@ -69,7 +69,7 @@ def run(shared: Path | None) -> tuple[list[dict[str, Any]], dict[str, Any]]:
     wigley = {key: _wigley(*key) for key in WIGLEY}
     measured = _measured(shared / NEEDS[1])
     checks += _against_tests(wigley, measured)
-    short = {U: short_wave_drift(hull, omega=_waves(np.linspace(1.0, 0.1, 46)), speed=U, rho=RHO, g=G) for U in SPEEDS}
+    short = {U: short_wave_drift(hull, omega=_waves(np.linspace(1.3, 0.1, 61)), speed=U, rho=RHO, g=G) for U in SPEEDS}
     tanker = _tanker(shared / NEEDS[2])
     checks += [*_short_waves(ship, short, strip), *_shortest_waves(hull, tables), *_tanker_at_rest(tanker)]
     data = {"ship": ship, "strip": strip, "loads": loads, "sea": sea, "wigley": wigley, "measured": measured}

@@ -1,4 +1,4 @@
-"""The drift of the panel method in long waves, reflection in short ones, a blend of the two between."""
+"""The drift of the panel method with reflection of short waves: a floor at speed, the continuation where panels end."""
 
 import numpy as np
 import xarray as xr
@@ -10,9 +10,11 @@ Array = NDArray[np.float64]
 
 _PURPOSE = "joined_drift"
 _DIMS = ("omega", "wave_direction", "influenced_dof")
+_RAISED = 2  # surge and sway
+_FADED = 0.5  # wave length, over that of the last frequency of the panel method, where nothing of it is left
 
 
-def joined_drift(long: xr.Dataset, short: xr.Dataset, *, band: tuple[float, float] = (0.4, 0.8)) -> xr.Dataset:
+def joined_drift(long: xr.Dataset, short: xr.Dataset, *, band: tuple[float, float] = (0.8, 1.2)) -> xr.Dataset:
     """Return the mean drift of the panel method with that of :func:`ogilvie.short_wave_drift` in short waves.
 
     Parameters
@@ -22,13 +24,12 @@ def joined_drift(long: xr.Dataset, short: xr.Dataset, *, band: tuple[float, floa
     short : xarray.Dataset
         Of :func:`ogilvie.short_wave_drift` for the same directions, speed and water, from waves of ``band[1]`` lengths on.
     band : (float, float)
-        Wave lengths over the length of the ship: `short` alone below the first, `long` alone above the second.
+        Wave lengths over the length of the ship between which reflection fades out as a floor at speed.
 
     Returns
     -------
     xarray.Dataset
-        mean_drift at the frequencies of both, within the band and on their own side of it, NaN in components that one of them
-        lacks; weight_short (omega): the part of `short` in it.
+        mean_drift at the frequencies of both (of `short` from ``band[1]`` on), NaN in components that one of them lacks.
 
     Raises
     ------
@@ -37,58 +38,81 @@ def joined_drift(long: xr.Dataset, short: xr.Dataset, *, band: tuple[float, floa
 
     Notes
     -----
-    (1 - c) long + c short, c = 3 p^2 - 2 p^3, with p from 1 to 0 over the band; each set between its frequencies by monotone
-    cubics. This is an interpolation and no theory: at speed neither side is right inside the band, and the panel method may
-    lack most of the reflection below it (docs/theory/drift.md, section 8). At rest the panel method is right as far as its
-    panels reach: move the band there.
+    *At rest* the panel method is right, and is taken up to its last frequency. *At speed* it lacks reflection, so
+    surge and sway are raised to that where it is larger: with l of `long`, s of `short` and e the sign of s,
+
+        F = l + e clip(e (c s - l), 0, 2 c abs(s)),
+
+    the larger of l and c s where both have one sign, and continuous in any case; c = 1 in waves shorter than ``band[0]``, 0 in
+    those longer than ``band[1]``, 3 p^2 - 2 p^3 between. *Beyond the last frequency* of `long` the difference from `short`
+    fades out until the wave length is halved. Between their frequencies both are monotone cubics.
+
+    This is a rule and no theory: it adds no reflection to the motions' part, and knows nothing of yaw (docs/theory/drift.md,
+    section 8).
 
     Examples
     --------
     >>> from ogilvie.hydro.drift_short import short_wave_drift
     >>> from ogilvie.mesh.shapes import wigley
-    >>> short = short_wave_drift(wigley(100.0, panels=200), omega=np.linspace(0.8, 2.0, 7), speed=5.0)
-    >>> long = short.assign(mean_drift=3.0 * short.mean_drift).isel(omega=slice(4))  # stands for that of mean_drift
-    >>> joined_drift(long, short).weight_short.values.round(2).tolist()
-    [0.0, 0.44, 0.99, 1.0, 1.0, 1.0, 1.0]
+    >>> short = short_wave_drift(wigley(100.0, panels=200), omega=np.linspace(0.7, 2.0, 6), speed=5.0)
+    >>> long = short.assign(mean_drift=0.4 * short.mean_drift).isel(omega=slice(4))  # stands for that of mean_drift
+    >>> (joined_drift(long, short).mean_drift / short.mean_drift)[:, 0, 0].values.round(2).tolist()
+    [0.4, 1.0, 1.0, 1.0, 1.0, 1.0]
     """
     _check(long, short, band)
     length, g = float(short.attrs["length"]), float(short.attrs["g"])
     first, last = (float(np.sqrt(2.0 * np.pi * g / (ratio * length))) for ratio in band[::-1])
-    both = {"long": long.omega.values.astype(float), "short": short.omega.values.astype(float)}
-    if both["long"][-1] < last * (1.0 - 1e-9):
+    ours, theirs = short.omega.values.astype(float), long.omega.values.astype(float)
+    end = float(theirs[-1])
+    if end < last * (1.0 - 1e-9):
         raise InputError(
             f"{_PURPOSE}: long: frequencies up to {last:.4g} rad/s (waves of {band[0]:g} lengths) expected, up to "
-            f"{both['long'][-1]:.4g} rad/s found. Compute more of them, or raise the band."
+            f"{end:.4g} rad/s found. Compute more of them."
         )
-    if both["short"][0] > first * (1.0 + 1e-9):
+    if ours[0] > first * (1.0 + 1e-9):
         raise InputError(
             f"{_PURPOSE}: short: frequencies from {first:.4g} rad/s on (waves of {band[1]:g} lengths) expected, from "
-            f"{both['short'][0]:.4g} rad/s found. Compute more of them: they cost nothing."
+            f"{ours[0]:.4g} rad/s found. Compute more of them: they cost nothing."
         )
-    w = _distinct(np.concatenate([both["long"][both["long"] <= last], both["short"][both["short"] >= first]]))
-    p = np.clip((band[1] - 2.0 * np.pi * g / w**2 / length) / (band[1] - band[0]), 0.0, 1.0)
-    c = 3.0 * p**2 - 2.0 * p**3
-    drift = (1.0 - c)[:, None, None] * _at(w, long, c < 1.0) + c[:, None, None] * _at(w, short, c > 0.0)
-    drift[..., np.isnan(drift).any(axis=(0, 1))] = np.nan
+    w = _distinct(np.concatenate([theirs, ours[ours >= first]]))
+    panels, walls = _at(w, long), _at(w, short)
+    if float(short.attrs["speed"]) != 0.0:
+        c = _step((band[1] - 2.0 * np.pi * g / w**2 / length) / (band[1] - band[0]))
+        panels = np.where((w <= end)[:, None, None], _raised(panels, walls, c), panels)
+    at_end = int(np.searchsorted(w, end * (1.0 - 1e-9)))
+    rest = 1.0 - _step((1.0 - (end / w) ** 2) / (1.0 - _FADED))
+    beyond = walls + rest[:, None, None] * (panels[at_end] - walls[at_end])
+    drift = np.where((w > end)[:, None, None], beyond, panels)
+    drift[..., np.isnan(panels + walls).any(axis=(0, 1))] = np.nan
     coords = {"omega": w, "wave_direction": short.wave_direction, "influenced_dof": short.influenced_dof}
-    result = xr.Dataset({"mean_drift": (_DIMS, drift), "weight_short": ("omega", c)}, coords=coords, attrs=short.attrs)
-    text = (
-        f"mean drift of {long.attrs.get('name', 'the panel method')} in waves longer than {band[1]:g} ship lengths, reflection "
-        f"in those shorter than {band[0]:g}, a blend between"
-    )
+    result = xr.Dataset({"mean_drift": (_DIMS, drift)}, coords=coords, attrs=short.attrs)
+    text = f"mean drift of {long.attrs.get('name', 'the panel method')} up to {end:.4g} rad/s and reflection of short waves"
     return result.assign_attrs(water_depth=long.attrs.get("water_depth", np.inf), band=list(band), summary=text)
 
 
-def _at(w: Array, drift: xr.Dataset, needed: NDArray[np.bool_]) -> Array:
-    """Return mean drift (n, n_b, 6) at frequencies w where needed, zero (of what is known) elsewhere."""
+def _raised(panels: Array, walls: Array, c: Array) -> Array:
+    """Return the drift of the panels (n, n_b, 6) with surge and sway raised to c times that of the walls where it is larger."""
+    out = panels.copy()
+    drift, floor = panels[..., :_RAISED], c[:, None, None] * walls[..., :_RAISED]
+    sign = np.sign(floor)
+    out[..., :_RAISED] = drift + sign * np.clip(sign * (floor - drift), 0.0, 2.0 * np.abs(floor))
+    return out
+
+
+def _step(p: Array) -> Array:
+    """Return the smooth step from 0 at p = 0 to 1 at p = 1."""
+    p = np.clip(p, 0.0, 1.0)
+    return np.asarray(3.0 * p**2 - 2.0 * p**3)
+
+
+def _at(w: Array, drift: xr.Dataset) -> Array:
+    """Return mean drift (n, n_b, 6) at frequencies w; outside those of the data that at their ends."""
     from scipy.interpolate import PchipInterpolator
 
-    values = drift.mean_drift.values.astype(float)
-    out = np.where(np.isnan(values).any(axis=(0, 1)), np.nan, np.zeros((len(w), *values.shape[1:])))
+    x, values = drift.omega.values.astype(float), drift.mean_drift.values.astype(float)
     known = ~np.isnan(values).any(axis=(0, 1))
-    x = drift.omega.values.astype(float)
-    inside = np.clip(w[needed], x[0], x[-1])  # beyond by rounding alone
-    out[np.ix_(needed, np.arange(values.shape[1]), known)] = PchipInterpolator(x, values[..., known])(inside)
+    out = np.full((len(w), *values.shape[1:]), np.nan)
+    out[..., known] = PchipInterpolator(x, values[..., known])(np.clip(w, x[0], x[-1]))
     return out
 
 
@@ -110,6 +134,8 @@ def _check(long: xr.Dataset, short: xr.Dataset, band: tuple[float, float]) -> No
             raise InputError(f"{_PURPOSE}: {name}: a data set expected, {type(one).__name__} found.")
         if "mean_drift" not in one or one.mean_drift.dims != _DIMS:
             raise InputError(f"{_PURPOSE}: {name}: mean_drift over {', '.join(_DIMS)} expected, {list(one.data_vars)} found.")
+        if one.sizes["omega"] < 2:
+            raise InputError(f"{_PURPOSE}: {name}: at least two frequencies expected, one found.")
     if "length" not in short.attrs:
         raise InputError(f"{_PURPOSE}: short: a result of short_wave_drift expected, one without the ship's length found.")
     for key in ("rho", "g", "speed"):
