@@ -178,6 +178,13 @@ def test_turned_hull_in_turned_waves():
         np.testing.assert_allclose(other, [c * one[0] - s * one[1], s * one[0] + c * one[1], one[2]], atol=1e-9)
 
 
+def test_going_astern_is_going_ahead_turned_round():
+    hull = shapes.wigley(3.0, panels=400).translated((0.4, 0.0, 0.0))
+    one = force(hull, wave_direction=[2.3], speed=1.5)[0]
+    other = force(hull.rotated(psi=np.pi), wave_direction=[2.3 - np.pi], speed=-1.5)[0]
+    np.testing.assert_allclose(other, one * [-1.0, -1.0, 1.0], atol=1e-9)
+
+
 def test_forces_do_not_depend_on_the_scale():
     small = short_wave_drift(shapes.wigley(1.0, panels=300), omega=[6.0], wave_direction=[2.6], speed=1.1, **WATER)
     large = short_wave_drift(shapes.wigley(25.0, panels=300), omega=[1.2], wave_direction=[2.6], speed=5.5, **WATER)
@@ -304,6 +311,8 @@ def test_result_obeys_the_schema_and_feeds_slow_drift():
         ({"wave_direction": [180.0]}, "wave_direction: angles from -pi to 2 pi rad expected, 180.0 found"),
         ({"wave_direction": [0.0, 0.0]}, "distinct"),
         ({"speed": np.inf}, "speed: a finite number"),
+        ({"speed": "fast"}, "speed: a finite number of m/s expected, 'fast' found"),
+        ({"speed": np.nan}, "speed: a finite number"),
         ({"rho": -1.0}, "rho: a positive number"),
         ({"g": 0.0}, "g: a positive number"),
     ],

@@ -84,14 +84,10 @@ def short_wave_drift(
     -0.67
     """
     contour = find_contour(hull, purpose=_PURPOSE)
-    for name, value in (("rho", rho), ("g", g)):
-        if not (np.isfinite(value) and value > 0.0):
-            raise InputError(f"{_PURPOSE}: {name}: a positive number expected, {value!r} found.")
-    if not np.isfinite(speed):
-        raise InputError(f"{_PURPOSE}: speed: a finite number of m/s expected, {speed!r} found.")
+    rho, g = _number("rho", rho, 0.0, "a positive number"), _number("g", g, 0.0, "a positive number")
+    U = _number("speed", speed, -np.inf, "a finite number of m/s")
     w = _axis("omega", omega, 0.0, np.inf, "positive frequencies in rad/s")
     b = _axis("wave_direction", wave_direction, -np.pi - 1e-9, 2.0 * np.pi + 1e-9, "angles from -pi to 2 pi rad")
-    U = float(speed)
     drift = np.full((len(w), len(b), 6), np.nan)
     for i, j in np.ndindex(len(w), len(b)):
         drift[i, j, [0, 1, 5]] = 0.5 * rho * g * reflection(contour, float(b[j]), float(w[i]) * U / g)
@@ -102,8 +98,8 @@ def short_wave_drift(
     ratio = 2.0 * np.pi * g / w[[-1, 0]] ** 2 / hull.length
     at = "" if U == 0.0 else f" at {U:.4g} m/s"
     return result.assign_attrs(
-        rho=float(rho),
-        g=float(g),
+        rho=rho,
+        g=g,
         water_depth=np.inf,
         speed=U,
         moments="space",
@@ -148,6 +144,12 @@ def wall_force(s: ArrayLike, w: ArrayLike) -> Array:
     k2 = np.sqrt(np.maximum(k1**2 - along, 0.0))
     advancing = 0.5 * (k1 - along + into * k2)
     return np.asarray(np.where(ahead >= 0.0, advancing, into * np.maximum(into + 2.0 * ahead, 0.0)))
+
+
+def _number(name: str, value: float, above: float, what: str) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float | np.number) or not above < value < np.inf:
+        raise InputError(f"{_PURPOSE}: {name}: {what} expected, {value!r} found.")
+    return float(value)
 
 
 def _axis(name: str, values: ArrayLike, above: float, below: float, what: str) -> Array:
