@@ -60,8 +60,8 @@ def short_wave_drift(
         F_n = (rho g a^2/4) [k_1/k - 1 + s^2 + s k_2/k],   k_1 = k (1 + w s)^2,   k_2^2 = k_1^2 - k^2 (1 - s^2)
 
     pushes it along -n: k_1 is the wavenumber at the wall, where the water has the velocity of the stream along it, k_2 the part
-    across it. To first order in U that is (rho g a^2/2) s (s + 2 w), which is taken where the wall runs away from the
-    waves (n_x U < 0). At rest it is (rho g a^2/2) s^2; in head seas, to first order, (1 + 2 omega U/g) times that. Only
+    across it. To first order in U that is (rho g a^2/2) s (s + 2 w), the published form, taken where the wall runs away from
+    the waves (n_x U < 0). At rest it is (rho g a^2/2) s^2; in head seas, to first order, (1 + 2 omega U/g) times that. Only
     elements that waves reach are pushed: s > 0, and s + 2 w > 0, since the energy advances in the ship's axes with
     c_g d - U e_x; nothing else of the hull lies on this ray.
 
