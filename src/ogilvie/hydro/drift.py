@@ -121,7 +121,9 @@ def mean_drift(
     (d/dt - U d/dx) in place of d/dt throughout; the far field is Maruo's with the waves that a moving ship makes
     (:mod:`ogilvie.hydro.drift_maruo`). Near field and control surface give peaks of added resistance 40 to 90 % above the far
     field's, which is the one close to model tests (docs/theory/drift.md). That is for slender hulls under way: slow motion of
-    blunt bodies is for :class:`ogilvie.WaveDriftDamping`.
+    blunt bodies is for :class:`ogilvie.WaveDriftDamping`. In waves shorter than about half the ship both underestimate added
+    resistance, that of a full hull by far: reflection at the waterline is :func:`ogilvie.short_wave_drift`, and
+    :func:`ogilvie.joined_drift` raises the result to it.
 
     At sharp edges the velocity is infinite and its square near the edge is badly resolved by panels: there the near field is
     for comparison only, while the other two need no velocity on the hull.
