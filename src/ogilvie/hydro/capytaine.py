@@ -235,7 +235,7 @@ def source_influence(green: Any, facets: Facets, k: float, depth: float) -> Sour
                 f"mean_drift: the Green function cannot be evaluated at k = {k:.6g} rad/m in {depth:.6g} m of water ({e}). "
                 "Leave this frequency out."
             ) from e
-        return S.conj(), G.conj()
+        return np.conjugate(S, out=S), np.conjugate(G, out=G)
 
     return influence
 

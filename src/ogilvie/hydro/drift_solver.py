@@ -129,7 +129,7 @@ class Solver:
 
 def _refuse_too_large(case: Case) -> None:
     n, copies = case.panels.n_hull + case.panels.n_lid, len(case.panels.images)
-    needed = 16.0 * n**2 * (4.0 * (copies + 2) + 2.0)
+    needed = 16.0 * n**2 * (4.0 * (copies + 1) + 2.0)
     try:
         memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     except (AttributeError, ValueError, OSError):
