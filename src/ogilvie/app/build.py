@@ -1,5 +1,6 @@
 """From a case to hull, body and coefficients."""
 
+import warnings
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -8,7 +9,7 @@ from numpy.typing import NDArray
 from ogilvie.app.case import Case
 from ogilvie.app.crosschecks import default_range
 from ogilvie.body import RigidBody
-from ogilvie.errors import InputError
+from ogilvie.errors import InputError, OgilvieWarning
 from ogilvie.units import deg, knot
 
 if TYPE_CHECKING:
@@ -29,7 +30,12 @@ def make_hull(case: Case) -> "PanelMesh | None":
     from ogilvie.mesh.inspect import require_usable
 
     mesh = _floating(case).immersed()
-    require_usable(mesh, purpose="hull.file")
+    try:
+        require_usable(mesh, purpose="hull.file")
+    except InputError as error:
+        if case.hull.heal or ".flipped()" not in str(error):
+            raise
+        raise InputError(str(error).replace("Use .flipped().", "Give hull.heal = true, which turns them.")) from None
     return mesh
 
 
@@ -51,8 +57,17 @@ def _floating(case: Case) -> "PanelMesh":
     from ogilvie.mesh.files import load_mesh
 
     h: Any = case.hull
-    mesh = load_mesh(case.path(h.file))
-    return mesh if h.draught is None else mesh.translated((0.0, 0.0, -h.draught - mesh.bounds[0, 2]))
+    mesh = load_mesh(case.path(h.file), unit=h.unit, symmetry=h.symmetry)
+    if h.heal:
+        from ogilvie.mesh.inspect import heal
+
+        mesh, found = heal(mesh)
+        for what, count in found.repairs:
+            warnings.warn(f"hull.heal: {what}: {count}", OgilvieWarning)
+    if h.draught is None:
+        return mesh
+    mesh.immersed(h.draught)  # refuses a draught that the mesh cannot have
+    return mesh.translated((0.0, 0.0, -h.draught - mesh.bounds[0, 2]))
 
 
 def _shape(case: Case, *, above_water: bool) -> "PanelMesh":

@@ -11,11 +11,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ogilvie.app import build, build_run
-from ogilvie.app.build_control import try_parts
 from ogilvie.app.build_memory import make_memory
 from ogilvie.app.case import Case, read_case
 from ogilvie.app.console import say, stderr, step, warn
 from ogilvie.app.files import collected_warnings
+from ogilvie.app.foresight import foresee, foresee_data
 from ogilvie.errors import InputError, OgilvieWarning
 from ogilvie.post.broadcast import UdpSender
 from ogilvie.post.nmea import Nmea
@@ -115,10 +115,11 @@ def make_stepper(case: Case, duration: float) -> "Stepper":
     s, notes = case.simulation, list[str]()
     with collected_warnings(notes):
         hull = build.make_hull(case)
-        try_parts(case, hull)
+        foresee(case, hull)
         body = build.make_body(case, hull) if case.body is not None else None
         with step("coefficients"):
             hydro = build.make_hydro(case, hull, body)
+        foresee_data(case, hydro)
         body = body or build.make_body(case, hull, hydro)
         with step("fluid memory"):
             K, ssm = make_memory(case, hydro, body)

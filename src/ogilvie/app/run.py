@@ -2,6 +2,7 @@
 
 import platform
 import time
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
@@ -11,15 +12,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ogilvie.app import build, build_run
-from ogilvie.app.build_control import try_parts
 from ogilvie.app.build_memory import make_memory
 from ogilvie.app.case import Case
 from ogilvie.app.compare import frequency_domain
 from ogilvie.app.console import step, warn
 from ogilvie.app.drawing import Painter
 from ogilvie.app.files import collected_warnings, write_bytes, write_memory, write_result, write_text
+from ogilvie.app.foresight import foresee, foresee_data
 from ogilvie.app.weather import weather
-from ogilvie.errors import ConvergenceError
+from ogilvie.errors import ConvergenceError, OgilvieWarning
 from ogilvie.post.report import Findings, report
 from ogilvie.post.report_figures import (
     Job,
@@ -34,6 +35,7 @@ from ogilvie.post.report_figures import (
 if TYPE_CHECKING:
     import xarray as xr
 
+    from ogilvie.mesh.panels import PanelMesh
     from ogilvie.sim.vessel import Vessel
 
 
@@ -118,7 +120,7 @@ def _prepared(case: Case, place: Workspace, painter: Painter, progress: bool | N
 
     with step("hull") as tell:
         hull = build.make_hull(case)
-        try_parts(case, hull)
+        _told_at_once(case, hull)
         if hull is not None:
             painter.draw(hull_figures(hull))
             tell(f"{hull.full().n_faces} panels, {hull.volume:.6g} m3")
@@ -127,6 +129,7 @@ def _prepared(case: Case, place: Workspace, painter: Painter, progress: bool | N
         place.solving = case.coefficients.file is None and case.coefficients.cache
         hydro = build.make_hydro(case, hull, body, progress=progress)
         place.solving = False
+        foresee_data(case, hydro)
         body = body or build.make_body(case, hull, hydro)
         place.keep(write_netcdf(hydro, place.folder / "coefficients.nc"))
         tell(f"{hydro.sizes['omega']} frequencies, {hydro.sizes.get('wave_direction', 0)} directions")
@@ -135,7 +138,8 @@ def _prepared(case: Case, place: Workspace, painter: Painter, progress: bool | N
         tell(f"{len(checks.findings)} findings" if checks.findings else "no findings")
     if not checks.ok:
         failed = sum(f.severity == "error" for f in checks.findings)
-        warn(f"the coefficients fail {failed} of their checks (last section of the report): look before you trust the motions.")
+        where = "Checks and warnings in the report"
+        warn(f"the coefficients fail {failed} of their checks ({where}): look before you trust the motions.")
     with step("fluid memory") as tell:
         K, ssm = make_memory(case, hydro, body)
         place.keep(write_memory(place.folder / "memory.npz", K, ssm))
@@ -152,6 +156,16 @@ def _prepared(case: Case, place: Workspace, painter: Painter, progress: bool | N
         checks=checks,
         case_text=case.text,
     )
+
+
+def _told_at_once(case: Case, hull: "PanelMesh | None") -> None:
+    """Warn of what is doubtful before the long work, and let it go into the report as well."""
+    doubts: list[str] = []
+    with collected_warnings(doubts):
+        foresee(case, hull)
+    for doubt in doubts:
+        warn(doubt)
+        warnings.warn(doubt, OgilvieWarning)
 
 
 def _simulated(case: Case, f: Findings, place: Workspace, painter: Painter, progress: bool | None) -> Findings:

@@ -36,9 +36,16 @@ class Vessel(Section):
 
 
 class Hull(Section):
-    """A mesh file, or a shape made here with its parameters (m); depth, from keel to deck, is for restoring at large heel."""
+    """A mesh file, or a shape made here with its parameters (m); depth, from keel to deck, is for restoring at large heel.
+
+    Of a file: `unit` is the length of its unit (m; 0.001 for millimetres), `symmetry` names the planes whose other side it
+    leaves out; `heal` repairs what has one obvious repair, panels with normals into the body above all.
+    """
 
     file: Text | None = None
+    unit: Positive | None = None
+    symmetry: Literal["none", "xz", "xz+yz"] | None = None
+    heal: bool = False
     shape: Shape | None = None
     draught: Positive | None = None
     depth: Positive | None = None
@@ -67,8 +74,8 @@ class Body(Section):
 class Water(Section):
     """Density kg/m3, gravity m/s2, depth m (``inf`` for deep water)."""
 
-    rho: Positive = 1025.0
-    g: Positive = 9.80665
+    rho: Annotated[float, Field(ge=500, le=2000)] = 1025.0
+    g: Annotated[float, Field(ge=1, le=30)] = 9.80665
     depth: Annotated[float, Field(gt=0)] = float("inf")
 
 
