@@ -13,7 +13,7 @@ from ogilvie.app.crosschecks_control import large_motions
 from ogilvie.app.mistakes import describe, unknown_key
 from ogilvie.app.section_base import Section
 from ogilvie.app.section_control import Autopilot, Positioning, SpeedKeeping
-from ogilvie.app.section_loads import Current, Damping, HullLift, Mooring, Resistance, Restoring, Wind
+from ogilvie.app.section_loads import Current, Damping, HullLift, Mooring, Resistance, Restoring, SlowDrift, Wind
 from ogilvie.app.sections import (
     OPTIONAL,
     SECTIONS,
@@ -66,6 +66,7 @@ class Case:
     hull_lift: HullLift | None = None
     wind: Wind | None = None
     current: Current | None = None
+    slow_drift: SlowDrift | None = None
     mooring: Mooring | None = None
     autopilot: Autopilot | None = None
     speed_keeping: SpeedKeeping | None = None

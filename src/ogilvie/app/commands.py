@@ -234,7 +234,8 @@ def simulate_command(path: Path, *, coefficients: Path | None, memory: Path | No
             K, ssm = make_memory(case, hydro, body) if memory is None else read_memory(memory)
         with step("simulation"):
             sea = build_run.make_sea(case, build_run.make_spectrum(case), hydro)
-            run = build_run.simulate_case(case, build_run.make_vessel(case, body, hydro, K, ssm, hull=hull), sea)
+            vessel = build_run.finished_vessel(case, body, hydro, K, ssm, hull=hull, sea=sea)
+            run = build_run.simulate_case(case, vessel, sea)
         write_result(run, output)
         statistics = build_run.statistics(case, run)
     _tell(notes)

@@ -10,6 +10,7 @@ import numpy as np
 from ogilvie.app import build, build_run
 from ogilvie.app.angles import in_radians
 from ogilvie.app.build_control import try_parts
+from ogilvie.app.build_drift import refuse_without_drift
 from ogilvie.app.case import Case
 from ogilvie.errors import InputError, OgilvieWarning
 
@@ -67,6 +68,7 @@ def foresee_data(case: Case, hydro: "xr.Dataset") -> None:
         M = hydro.inertia_matrix.values
         _weight(case.body.mass, float(M[0, 0]), "of the coefficients")
         _inertia(build.make_body(case, None).matrix, M)
+    refuse_without_drift(case, hydro)
     if "excitation_force" in hydro:
         foresee_sea(case, hydro.omega.values, HeadingTable.of(hydro).headings)
 

@@ -124,7 +124,7 @@ def make_stepper(case: Case, duration: float) -> "Stepper":
         with step("fluid memory"):
             K, ssm = make_memory(case, hydro, body)
         sea = build_run.make_sea(case, build_run.make_spectrum(case), hydro)
-        vessel = build_run.make_vessel(case, body, hydro, K, ssm, hull=hull)
+        vessel = build_run.finished_vessel(case, body, hydro, K, ssm, hull=hull, sea=sea)
         options: Any = {"method": s.method, "motions": build_run.motions(case), "initial": build_run.initial(case)}
         with step("stepper"):
             stepper = Stepper(vessel, sea, dt=s.dt, ramp=s.ramp, **options)

@@ -169,11 +169,13 @@ def _told_at_once(case: Case, hull: "PanelMesh | None") -> None:
 
 
 def _simulated(case: Case, f: Findings, place: Workspace, painter: Painter, progress: bool | None) -> Findings:
-    """Sea, vessel, motions and their statistics."""
+    """Sea, mean drift, vessel, motions and their statistics."""
+    if case.slow_drift is not None:
+        f = replace(f, hydro=_drifting(case, f, place, progress))
     with step("simulation") as tell:
         spectrum = build_run.make_spectrum(case)
         sea = build_run.make_sea(case, spectrum, f.hydro)
-        vessel = build_run.make_vessel(case, f.body, f.hydro, f.K, f.ssm, hull=f.hull)
+        vessel = build_run.make_vessel(case, f.body, f.hydro, f.K, f.ssm, hull=f.hull, sea=sea)
         compared = frequency_domain(case, vessel, f.hydro, f.body, spectrum)
         painter.draw(wave_figures(spectrum, sea, compared.get("response")))
         run = build_run.simulate_case(case, vessel, sea, progress=progress)
@@ -187,6 +189,24 @@ def _simulated(case: Case, f: Findings, place: Workspace, painter: Painter, prog
     painter.draw(_moored(vessel, run, skip))
     said: dict[str, Any] = {"weather": weather(case, f.hull), "loads": vessel.names}
     return replace(f, spectrum=spectrum, sea=sea, run=run, skip=skip, statistics=statistics, **said, **compared)
+
+
+def _drifting(case: Case, f: Findings, place: Workspace, progress: bool | None) -> "xr.Dataset":
+    """The coefficients with their mean drift."""
+    from ogilvie.app.build_drift import holds_drift, with_drift
+    from ogilvie.hydro.netcdf import write_netcdf
+
+    with step("mean drift") as tell:
+        if holds_drift(case, f.hydro):
+            tell("that of the coefficients")
+            return f.hydro
+        still = build_run.make_vessel(case, f.body, f.hydro, f.K, f.ssm, hull=f.hull)
+        place.solving = case.coefficients.cache
+        hydro = with_drift(case, still, f.hydro, f.body, f.hull, progress=progress)
+        place.solving = False
+        write_netcdf(hydro, place.folder / "coefficients.nc")
+        tell(f"{hydro.sizes['omega']} frequencies, {hydro.sizes['wave_direction']} directions")
+    return hydro
 
 
 def _moored(vessel: "Vessel", run: "xr.Dataset", skip: float) -> dict[str, Job]:

@@ -21,7 +21,7 @@ from ogilvie.app.section_base import (
     Vector3,
 )
 from ogilvie.app.section_control import Autopilot, Positioning, SpeedKeeping
-from ogilvie.app.section_loads import Current, Damping, HullLift, Mooring, Resistance, Restoring, Wind
+from ogilvie.app.section_loads import Current, Damping, HullLift, Mooring, Resistance, Restoring, SlowDrift, Wind
 
 Shape = Literal["s175", "box", "hemisphere", "cylinder", "wigley", "particulars"]
 Spectrum = Literal["jonswap", "bretschneider", "pierson-moskowitz", "torsethaugen", "regular", "calm"]
@@ -199,6 +199,7 @@ OPTIONAL = (
     "hull_lift",
     "wind",
     "current",
+    "slow_drift",
     "mooring",
     "autopilot",
     "speed_keeping",
@@ -221,6 +222,7 @@ SECTIONS: dict[str, type[Section]] = {
     "hull_lift": HullLift,
     "wind": Wind,
     "current": Current,
+    "slow_drift": SlowDrift,
     "mooring": Mooring,
     "autopilot": Autopilot,
     "speed_keeping": SpeedKeeping,
