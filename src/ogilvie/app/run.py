@@ -35,6 +35,7 @@ from ogilvie.post.report_figures import (
 if TYPE_CHECKING:
     import xarray as xr
 
+    from ogilvie.loads.mooring_lines import CatenaryMooring
     from ogilvie.mesh.panels import PanelMesh
     from ogilvie.sim.vessel import Vessel
 
@@ -186,8 +187,9 @@ def _simulated(case: Case, f: Findings, place: Workspace, painter: Painter, prog
     if statistics is not None and "surge" not in statistics.dof.values and case.large:
         compared = {"response": compared["response"]} if "response" in compared else {}  # it turned away from that heading
     painter.draw(run_figures(run, spectrum=spectrum, expected=compared.get("expected_spectra"), skip=skip, hull=f.hull))
-    painter.draw(_moored(vessel, run, skip))
-    said: dict[str, Any] = {"weather": weather(case, f.hull), "loads": vessel.names}
+    lines = _lines(vessel, run)
+    painter.draw(_moored(lines, run, skip))
+    said: dict[str, Any] = {"weather": weather(case, f.hull), "loads": vessel.names, "lines": lines}
     return replace(f, spectrum=spectrum, sea=sea, run=run, skip=skip, statistics=statistics, **said, **compared)
 
 
@@ -209,11 +211,16 @@ def _drifting(case: Case, f: Findings, place: Workspace, progress: bool | None) 
     return hydro
 
 
-def _moored(vessel: "Vessel", run: "xr.Dataset", skip: float) -> dict[str, Job]:
-    """The picture of catenary lines at the mean pose."""
+def _lines(vessel: "Vessel", run: "xr.Dataset") -> "CatenaryMooring | None":
+    """The catenary lines, whose tensions a run of large motions tells."""
     from ogilvie.loads.mooring_lines import CatenaryMooring
 
-    lines = next((load for load in vessel.loads if isinstance(load, CatenaryMooring)), None)
+    lines = (load for load in vessel.loads if isinstance(load, CatenaryMooring))
+    return next(lines, None) if run.attrs.get("motions") == "large" else None
+
+
+def _moored(lines: "CatenaryMooring | None", run: "xr.Dataset", skip: float) -> dict[str, Job]:
+    """The picture of catenary lines at the mean pose."""
     if lines is None or float(run.time[-1]) <= skip:
         return {}
     eta = run.eta.sel(time=slice(skip, None)).values

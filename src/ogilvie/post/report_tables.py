@@ -20,8 +20,8 @@ def number(value: float, digits: int = 4) -> str:
 
     Examples
     --------
-    >>> number(24015.3, 5), number(0.01234), number(float("nan"))
-    ('24015', '0.01234', '-')
+    >>> number(24015.3, 5), number(0.01234), number(float("nan")), number(112316.2, 5)
+    ('24015', '0.01234', '-', '112316')
     """
     if not np.isfinite(value):
         return "-" if np.isnan(value) else "\u221e"
@@ -211,4 +211,6 @@ def statistics_table(statistics: "xr.Dataset", expected: "xr.Dataset | None") ->
         f"Motions of O{where}: {statistics.attrs['realisations']} x {number(statistics.attrs['duration'])} s. Significant and "
         "highest third are double amplitudes; the expected maximum is that of one realisation, above the mean."
     )
+    if expected is not None:
+        caption += " The frequency domain holds waves of first order alone."
     return Table(rows, head, caption, left=frozenset({0, 1}))
