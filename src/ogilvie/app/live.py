@@ -49,6 +49,9 @@ class LiveOptions:
     def formatter(self) -> Any:
         """What turns a state into a datagram."""
         if self.format == "json":
+            given = {"origin": self.origin != "0,0", "x-axis": self.x_axis != "east", "fix": self.fix != "simulated"}
+            for option in (name for name, is_given in given.items() if is_given):
+                raise InputError(f"--{option}: only with --format nmea; json has the pose in the world. Remove it.")
             return "json"
         if self.format != "nmea":
             raise InputError(f"--format: json or nmea expected, {self.format!r} found.")

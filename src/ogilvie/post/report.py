@@ -183,7 +183,7 @@ def _about_hydro(f: Findings) -> str:
     )
     if "wave_direction" in h.coords:
         b = np.degrees(h.wave_direction.values)
-        text += f" {len(b)} wave direction{'s' if len(b) > 1 else ''}: {_listed(b)}\u00b0."
+        text += f" {len(b)} wave direction{'s' if len(b) > 1 else ''} relative to the bow: {_listed(b)}\u00b0."
     return text
 
 

@@ -37,12 +37,13 @@ def line_tensions(lines: "CatenaryMooring", run: "xr.Dataset", *, skip: float = 
 def tension_table(lines: "CatenaryMooring", run: "xr.Dataset", *, skip: float = 0.0) -> Table:
     """Return mean, deviation and extremes of the tension at the fairlead of each line, and the largest at its anchor."""
     T = line_tensions(lines, run, skip=skip) / 1e3
-    head = ["line", "fairlead x, y, z [m]", "mean [kN]", "std [kN]", "least [kN]", "largest [kN]", "largest at anchor [kN]"]
+    head = ["line", "its fairlead x, y, z [m]", "mean [kN]", "std [kN]", "least [kN]", "largest [kN]", "largest at anchor [kN]"]
     rows = []
     for i, line in enumerate(lines.lines):
         place = ", ".join(number(float(v)) for v in line.fairlead)
         top, anchor = T[..., i, 0], T[..., i, 1]
         values = (top.mean(), top.std(), top.min(), top.max(), anchor.max())
-        rows.append([str(i + 1), place, *(number(float(v)) for v in values)])
+        rows.append([str(i), place, *(number(float(v)) for v in values)])
     caption = "Tension of the lines at the fairlead over all realisations, quasi-static: without inertia and drag of the lines."
+    caption += " Lines are counted from 0, as in the figure."
     return Table(rows, head, caption, left=frozenset({0, 1}))
