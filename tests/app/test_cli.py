@@ -325,3 +325,30 @@ def test_a_mesh_in_millimetres_is_read_with_its_unit(tmp_path):
 
 def test_the_folder_one_is_in_is_no_file():
     assert "a file expected, a folder found" in refused("check", ".")
+
+
+def test_the_place_of_a_result_is_tried_before_the_work(coefficients, tmp_path, monkeypatch):
+    monkeypatch.setattr("ogilvie.memory.retardation.retardation", lambda *a, **k: pytest.fail("worked for nothing"))
+    assert "Make it first" in refused("identify", coefficients, "-o", tmp_path / "no" / "memory.npz")
+    monkeypatch.setattr(os, "access", lambda place, mode, **options: mode != os.W_OK)  # the superuser may write anywhere
+    assert "no permission" in refused("identify", coefficients, "-o", tmp_path / "memory.npz")
+
+
+def test_a_fluid_memory_of_another_vessel_is_refused(coefficients):
+    from ogilvie.app.build_memory import refuse_memory_of_another
+
+    hydro = og.read_hydro(coefficients)
+    K = og.retardation(hydro, duration=20.0, dt=0.1)
+    refuse_memory_of_another(K, hydro)
+    with pytest.raises(og.InputError, match="another vessel"):
+        refuse_memory_of_another(K, hydro.assign(added_mass_inf=2 * hydro.added_mass_inf))
+
+
+def test_too_little_memory_is_no_defect_of_the_program(coefficients, monkeypatch):
+    def greedy(*args, **options):
+        raise MemoryError("Unable to allocate 53 GiB")
+
+    monkeypatch.setattr("ogilvie.memory.retardation.retardation", greedy)
+    message = refused("identify", coefficients)
+    assert "53 GiB" in message
+    assert "shorter duration" in message

@@ -8,6 +8,7 @@ import numpy as np
 
 from ogilvie.app.console import say, step, warn
 from ogilvie.app.files import collected_warnings, kind_of, read_memory, read_result, write_memory, write_result
+from ogilvie.atomic import check_place
 from ogilvie.errors import InputError
 from ogilvie.units import deg, knot
 
@@ -93,6 +94,7 @@ def hydro_command(source: Path, *, output: Path, wamit: Path | None, scale: floa
     from ogilvie.hydro.wamit_write import write_wamit
 
     kind, notes = kind_of(source), list[str]()
+    check_place(output)
     with collected_warnings(notes):
         if kind == "case":
             hydro = _solve_case(source)
@@ -193,6 +195,7 @@ def identify_command(source: Path, *, output: Path, r2: float, duration: float |
     from ogilvie.memory.retardation import retardation
 
     notes: list[str] = []
+    check_place(output)
     with collected_warnings(notes):
         hydro = read_coefficients(source)
         K = retardation(hydro, duration=duration, tail=tail)
@@ -213,12 +216,13 @@ def identify_command(source: Path, *, output: Path, r2: float, duration: float |
 def simulate_command(path: Path, *, coefficients: Path | None, memory: Path | None, output: Path) -> None:
     """Simulate a case, from saved coefficients and fluid memory where they are given."""
     from ogilvie.app import build, build_run
-    from ogilvie.app.build_memory import make_memory
+    from ogilvie.app.build_memory import make_memory, refuse_memory_of_another
     from ogilvie.app.case import read_case
     from ogilvie.app.foresight import foresee, foresee_data
     from ogilvie.app.summary import print_motions
 
     case, notes = read_case(path), list[str]()
+    check_place(output)
     with collected_warnings(notes):
         hull = build.make_hull(case)
         foresee(case, hull)
@@ -232,6 +236,8 @@ def simulate_command(path: Path, *, coefficients: Path | None, memory: Path | No
         body = body or build.make_body(case, hull, hydro)
         with step("fluid memory"):
             K, ssm = make_memory(case, hydro, body) if memory is None else read_memory(memory)
+            if memory is not None:
+                refuse_memory_of_another(K, hydro)
         with step("simulation"):
             sea = build_run.make_sea(case, build_run.make_spectrum(case), hydro)
             vessel = build_run.finished_vessel(case, body, hydro, K, ssm, hull=hull, sea=sea)

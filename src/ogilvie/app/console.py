@@ -109,6 +109,10 @@ def guarded(command: Callable[P, Any]) -> Callable[P, Any]:
         except OSError as error:
             _report("error", _system_sentence(error))
             code, cause = 2, error
+        except MemoryError as error:
+            advice = "Take a shorter duration, a larger step or output_step, fewer panels, frequencies or realisations."
+            _report("error", f"more memory than this machine has is needed ({str(error) or 'no more is left'}). {advice}")
+            code, cause = 2, error
         except Exception as error:
             _report("unexpected error", f"{type(error).__name__}: {error}")
             _report("hint", "this is a defect of the program; `ogilvie --debug ...` shows where it arose.")

@@ -20,6 +20,7 @@ from ogilvie.app.drawing import Painter
 from ogilvie.app.files import collected_warnings, write_bytes, write_memory, write_result, write_text
 from ogilvie.app.foresight import foresee, foresee_data
 from ogilvie.app.weather import weather
+from ogilvie.atomic import check_place
 from ogilvie.errors import ConvergenceError, OgilvieWarning
 from ogilvie.post.report import Findings, report
 from ogilvie.post.report_figures import (
@@ -55,6 +56,7 @@ class Workspace:
             raise NotADirectoryError(20, "Not a directory", str(self.folder))
         self.new = not self.folder.exists()
         self.folder.mkdir(parents=True, exist_ok=True)
+        check_place(self.folder / "report.html")
         return self
 
     def keep(self, path: Path) -> Path:
