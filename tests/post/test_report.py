@@ -127,6 +127,16 @@ def test_memory_table_and_sentence(buoy):
     assert "R\u00b2 of K" not in memory_table(buoy.K, None).head
 
 
+def test_the_worst_coupling_of_a_model_is_named(buoy):
+    from dataclasses import replace
+
+    r2 = np.full((6, 6), 0.99)
+    r2[2, 4] = -0.5
+    assert "-0.5000 of K (heave-pitch)" in describe(replace(buoy.ssm, r2=r2))
+    r2[3, 3] = -0.7
+    assert "-0.7000 of K (roll)" in describe(replace(buoy.ssm, r2=r2))
+
+
 def test_body_and_check_tables(buoy):
     rows = dict(body_table(buoy).rows)
     assert rows["mass"] == "300 t"

@@ -206,9 +206,15 @@ def describe(ssm: "StateSpace") -> str:
     if ssm.is_passive is not None:
         words.append("passive" if ssm.is_passive else f"not passive (margin {ssm.passivity_margin:.2g})")
     worst = {"A": ssm.r2_added_mass, "B": ssm.r2_damping, "K": ssm.r2}
-    lowest = [f"{np.nanmin(r2):.4f} of {letter}" for letter, r2 in worst.items() if r2 is not None]
+    lowest = [f"{np.nanmin(r2):.4f} of {letter} ({_entry(ssm.dofs, r2)})" for letter, r2 in worst.items() if r2 is not None]
     quality = f"lowest R\u00b2 of a coupling {', '.join(lowest)}"
     return f"State space of {ssm.order} states ({ssm.method}), {', '.join(words)}; {quality}."
+
+
+def _entry(dofs: Sequence[str], r2: Any) -> str:
+    """The name of the entry with the lowest R2."""
+    i, j = (int(k) for k in np.unravel_index(np.nanargmin(r2), np.shape(r2)))
+    return dofs[i] if i == j else f"{dofs[i]}-{dofs[j]}"
 
 
 def _model_notes(f: Findings) -> Sequence[str]:
