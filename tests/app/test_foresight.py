@@ -199,6 +199,14 @@ def test_mass_and_inertia_are_compared_with_those_of_a_file(tmp_path):
         foresee_data(file_case(tmp_path, ("[7.0, 28.0, 28.0]", "[0.35, 0.25, 0.25]")), hydro)
 
 
+def test_another_height_of_the_centre_of_gravity_is_told(tmp_path):
+    """The stiffness 5e8 N m changes by -m g dz, a fifth for a metre."""
+    hydro = data([150.0]).assign(hydrostatic_stiffness=(("influenced_dof", "radiating_dof"), 5e8 * np.eye(6)))
+    foresee_data(file_case(tmp_path), hydro)
+    with pytest.warns(OgilvieWarning, match=r"z = 1 m.*change by -20%"):
+        foresee_data(file_case(tmp_path, ("zg = 0.0", "zg = 1.0")), hydro)
+
+
 @pytest.mark.parametrize("angle", np.radians([15.0, 30.0, 45.0, 90.0, -135.0, 180.0, 270.0]))
 def test_angles_in_radians_are_recognised_to_two_decimals(angle):
     assert looks_like_radians(float(angle))

@@ -75,7 +75,7 @@ def with_drift(
             **options,
         )
     for words in said:
-        warnings.warn("; ".join(words.splitlines()), OgilvieWarning)
+        warnings.warn("; ".join(words.removeprefix("mean_drift: ").splitlines()), OgilvieWarning)
     return hydro.assign(mean_drift=found.mean_drift)
 
 

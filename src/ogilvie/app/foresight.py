@@ -28,6 +28,7 @@ _LEAST_GYRATION, _LARGEST_GYRATION = 0.02, 2.0
 #: Weight and buoyancy may differ by this part without a word, and by this factor at all.
 _WEIGHT, _WEIGHT_AT_MOST = 0.02, 2.0
 _FROUDE = 0.5
+_STIFFNESS = 0.05
 
 
 def foresee(case: Case, hull: "PanelMesh | None") -> None:
@@ -67,7 +68,9 @@ def foresee_data(case: Case, hydro: "xr.Dataset") -> None:
     if case.body is not None and case.hull is None and case.body.mass is not None and "inertia_matrix" in hydro:
         M = hydro.inertia_matrix.values
         _weight(case.body.mass, float(M[0, 0]), "of the coefficients")
-        _inertia(build.make_body(case, None).matrix, M)
+        mine = build.make_body(case, None).matrix
+        _inertia(mine, M)
+        _height(mine, M, hydro)
     refuse_without_drift(case, hydro)
     if "excitation_force" in hydro:
         foresee_sea(case, hydro.omega.values, HeadingTable.of(hydro).headings)
@@ -169,6 +172,21 @@ def _inertia(mine: Any, other: Any) -> None:
                 f"body.gyradii (or inertia): about {other[i, i]:.3g} kg m2 in {name} about O, as the coefficients have it, "
                 f"expected, {mine[i, i]:.3g} found. Radii in m about the centre of gravity are expected, no parts of length."
             )
+
+
+def _height(mine: Any, other: Any, hydro: "xr.Dataset") -> None:
+    """Warn where the stiffness of the coefficients is that of another height of the centre of gravity."""
+    if "hydrostatic_stiffness" not in hydro or not {"roll"} <= {str(d) for d in hydro.influenced_dof.values}:
+        return
+    C44 = float(hydro.hydrostatic_stiffness.sel(influenced_dof="roll", radiating_dof="roll"))
+    change = -float(hydro.attrs["g"]) * (mine[4, 0] - other[4, 0])  # m z_G stands at (pitch, surge)
+    if abs(change) > _STIFFNESS * abs(C44):
+        here, there = (M[4, 0] / M[0, 0] for M in (mine, other))
+        warnings.warn(
+            f"body.zg (or cog): z = {here:.4g} m, where the coefficients have {there:.4g} m: the stiffness of roll would "
+            f"change by {change / C44:.0%}, but that of the coefficients is kept. Take theirs, or coefficients for yours.",
+            OgilvieWarning,
+        )
 
 
 def _stability(case: Case, statics: "Hydrostatics") -> None:
