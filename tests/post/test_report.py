@@ -166,3 +166,15 @@ def test_the_window_holds_the_largest_wave(buoy):
     assert first < 700.0 < last
     assert last - first == pytest.approx(300.0)
     assert busiest(buoy.run) == (0.0, 300.0)
+
+
+def test_motions_that_are_rounding_alone_are_zeros(buoy):
+    eta = buoy.run.eta.copy()
+    eta[:, 1] *= 1e-16
+    moved = summary(buoy.run.assign(eta=eta))
+    head, rows = motion_rows(moved, None)
+    assert rows[1] == ["sway", "m", "0", "-", "0", "-"]
+    assert rows[0][2] == "0.141"
+    row = statistics_table(moved, None).rows[1]
+    assert len(row) == len(statistics_table(moved, None).head)
+    assert set(row[2:]) == {"0", "-"}

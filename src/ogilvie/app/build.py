@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from ogilvie.mesh.panels import PanelMesh
 
 Array = NDArray[np.float64]
+_LITTLE = 0.75  # of the highest default frequency: panels that resolve less deserve a warning
 
 
 def make_hull(case: Case) -> "PanelMesh | None":
@@ -148,8 +149,17 @@ def frequencies(case: Case, hull: "PanelMesh") -> Array:
         return np.sort(np.array(c.omega))
     if c.periods is not None:
         return np.sort(2 * np.pi / np.array(c.periods))
-    low, high = (c.omega_min, c.omega_max) if c.omega_min is not None else default_range(hull.beam, case.water.g)
+    low, high = (c.omega_min, c.omega_max) if c.omega_min is not None else _usual(hull, case.water.g)
     return np.linspace(float(low), float(high), c.omega_count)  # type: ignore[arg-type]
+
+
+def _usual(hull: "PanelMesh", g: float) -> tuple[float, float]:
+    """The default range, up to what the panels resolve where that is a little less."""
+    from ogilvie.hydro.bem_case import resolved_wavenumber
+
+    low, high = default_range(hull.beam, g)
+    resolved = float(np.sqrt(g * resolved_wavenumber(hull))) * (1 - 1e-9)
+    return low, min(high, resolved) if _LITTLE * high < resolved else high
 
 
 def directions(case: Case, hull: "PanelMesh | None" = None) -> Array:

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from ogilvie.mesh.hydrostatics import Hydrostatics
 
 
+_STILL = 1e-9  # m or rad; what moves less is rounding
+
+
 def number(value: float, digits: int = 4) -> str:
     """Return a number with some significant digits, without needless zeros or exponents.
 
@@ -177,6 +180,9 @@ def motion_rows(statistics: "xr.Dataset", expected: "xr.Dataset | None") -> tupl
     for dof in map(str, statistics.dof.values):
         s = statistics.sel(dof=dof)
         factor, unit = (180 / np.pi, "deg") if dof in ("roll", "pitch", "yaw") else (1.0, "m")
+        if float(s["std"]) < _STILL:
+            rows.append([dof, unit, *("0" if name in ("std", "largest") else "-" for name in head[2:])])
+            continue
         low, high = (number(float(v) * factor, 3) for v in s.std_interval.values)
         row = [dof, unit, number(float(s["std"]) * factor, 3), f"{low} to {high}"]
         if expected is not None:
@@ -195,6 +201,10 @@ def statistics_table(statistics: "xr.Dataset", expected: "xr.Dataset | None") ->
     for dof in map(str, statistics.dof.values):
         s = statistics.sel(dof=dof)
         factor, unit = (180 / np.pi, "deg") if dof in ("roll", "pitch", "yaw") else (1.0, "m")
+        if float(s["std"]) < _STILL:
+            mean = number(_zero(float(s["mean"]) * factor), 3)
+            rows.append([dof, unit, mean, *("0" if name in ("std", "min", "max") else "-" for name in head[3:])])
+            continue
 
         def cell(key: str, s: Any = s, factor: float = factor) -> str:
             return number(_zero(float(s[key]) * factor), 3)
