@@ -106,6 +106,14 @@ def test_panels_that_look_inwards_can_be_healed(tmp_path):
         assert build.make_hull(case).volume == pytest.approx(1e4)
 
 
+def test_proportions_that_no_ship_has_are_doubted():
+    (wide,) = look(("length = 100.0", "length = 15.0"), ("[7.0, 29.0, 29.0]", "[7.0, 5.0, 8.0]"))
+    assert "x forward" in wide
+    ship = ('shape = "box"', 'shape = "particulars"\ncb = 0.7')
+    (deep,) = look(ship, ("draught = 5.0", "draught = 25.0"), ("kg = 6.0", "kg = 12.0"), ("panels = 100", "panels = 400"))
+    assert deep.startswith("hull.draught: 25")
+
+
 def test_an_origin_far_from_amidships_is_doubted(tmp_path):
     write_mesh(box(100.0, 20.0, 5.0, panels=100).translated((50.0, 0.0, 0.0)), tmp_path / "ap.gdf")
     (doubt,) = look((BARGE[: BARGE.index("[body]")], '\n[hull]\nfile = "ap.gdf"\n'), folder=tmp_path)

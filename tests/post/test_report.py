@@ -172,7 +172,7 @@ def test_motions_that_are_rounding_alone_are_zeros(buoy):
     eta = buoy.run.eta.copy()
     eta[:, 1] *= 1e-16
     moved = summary(buoy.run.assign(eta=eta))
-    head, rows = motion_rows(moved, None)
+    _, rows = motion_rows(moved, None)
     assert rows[1] == ["sway", "m", "0", "-", "0", "-"]
     assert rows[0][2] == "0.141"
     row = statistics_table(moved, None).rows[1]

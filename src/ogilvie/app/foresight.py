@@ -130,10 +130,9 @@ def _result(case: Case) -> None:
 def _size(case: Case, hull: "PanelMesh") -> None:
     extent = float(np.ptp(hull.full().vertices, axis=0).max())
     if extent > _TOO_LONG:
-        raise InputError(
-            f"hull.file: a hull of at most {_TOO_LONG:g} m expected, {extent:.4g} m found. "
-            "A mesh in millimetres? Give hull.unit = 0.001."
-        )
+        file = case.hull is not None and case.hull.file is not None
+        hint = "A mesh in millimetres? Give hull.unit = 0.001." if file else "Lengths are in m."
+        raise InputError(f"hull: at most {_TOO_LONG:g} m expected, {extent:.4g} m found. {hint}")
     draught = -float(hull.vertices[:, 2].min())
     if case.water.depth <= draught:
         raise InputError(f"water.depth: {case.water.depth:g}: more than the draught of the hull, {draught:.4g} m, expected.")
@@ -220,6 +219,11 @@ def _doubts(case: Case, hull: "PanelMesh | None") -> Iterator[str]:
     length = float(max(high[0] - low[0], high[1] - low[1]))
     if length > _LONG:
         yield f"hull: {length:.4g} m long. In feet or millimetres? Give hull.unit, the length of the file's unit in m."
+    along, across, deep = high[0] - low[0], high[1] - low[1], high[2] - low[2]
+    if across > 1.001 * along:
+        yield f"hull: {across:.4g} m across and {along:.4g} m along: x forward, y to port expected."
+    if case.hull is not None and case.hull.shape == "particulars" and deep > across:
+        yield f"hull.draught: {deep:.4g}: a ship with less draught than its beam of {across:.4g} m expected."
     middle = hypot(*(0.5 * (low + high))[:2])
     if middle > 0.25 * length:
         yield (
