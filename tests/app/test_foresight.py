@@ -106,6 +106,14 @@ def test_panels_that_look_inwards_can_be_healed(tmp_path):
         assert build.make_hull(case).volume == pytest.approx(1e4)
 
 
+def test_the_weight_acts_where_the_buoyancy_does():
+    assert look(("kg = 6.0", "cog = [0.5, 0.0, 1.0]")) == []
+    (off,) = look(("kg = 6.0", "cog = [4.0, 0.0, 1.0]"))
+    assert "4 m from the centre of buoyancy" in off
+    assert "Counted from another point" in refused(("kg = 6.0", "cog = [54.0, 0.0, 1.0]"))
+    assert "y = -11" in refused(("kg = 6.0", "cog = [0.0, -11.0, 1.0]"))
+
+
 def test_proportions_that_no_ship_has_are_doubted():
     (wide,) = look(("length = 100.0", "length = 15.0"), ("[7.0, 29.0, 29.0]", "[7.0, 5.0, 8.0]"))
     assert "x forward" in wide
