@@ -126,6 +126,9 @@ def test_an_origin_far_from_amidships_is_doubted(tmp_path):
     write_mesh(box(100.0, 20.0, 5.0, panels=100).translated((50.0, 0.0, 0.0)), tmp_path / "ap.gdf")
     (doubt,) = look((BARGE[: BARGE.index("[body]")], '\n[hull]\nfile = "ap.gdf"\n'), folder=tmp_path)
     assert "50 m from the origin" in doubt
+    assert "hull.offset = [-50, 0, 0]" in doubt
+    moved = '\n[hull]\nfile = "ap.gdf"\noffset = [-50, 0, 0]\n'
+    assert look((BARGE[: BARGE.index("[body]")], moved), folder=tmp_path) == []
 
 
 def test_water_shallower_than_the_draught_of_a_file_is_refused(tmp_path):

@@ -58,7 +58,8 @@ def _floating(case: Case) -> "PanelMesh":
     from ogilvie.mesh.files import load_mesh
 
     h: Any = case.hull
-    mesh = load_mesh(case.path(h.file), unit=h.unit, symmetry=h.symmetry)
+    offset = None if h.offset is None else (*h.offset, 0.0)
+    mesh = load_mesh(case.path(h.file), unit=h.unit, symmetry=h.symmetry, offset=offset)
     if h.heal:
         from ogilvie.mesh.inspect import heal
 

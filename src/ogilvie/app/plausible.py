@@ -150,7 +150,7 @@ def doubts(case: Case, hull: "PanelMesh | None") -> Iterator[str]:
     if middle > 0.25 * length:
         yield (
             f"hull: its middle lies {middle:.4g} m from the origin O. Motions, springs and damping are those of O: surge, sway "
-            "and heave at the end of a ship hold its pitch and yaw. Move the mesh so that O is amidships."
+            f"and heave at a ship's end hold pitch and yaw. Move it: hull.offset = [{-0.5 * (low[0] + high[0]):.4g}, 0, 0]."
         )
     if start is not None and abs(start.heave) > -low[2]:
         yield f"simulation.initial.heave: {start.heave:g}: less than the draught, {-low[2]:.4g} m, expected."

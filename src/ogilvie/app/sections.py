@@ -39,12 +39,14 @@ class Hull(Section):
     """A mesh file, or a shape made here with its parameters (m); depth, from keel to deck, is for restoring at large heel.
 
     Of a file: `unit` is the length of its unit (m; 0.001 for millimetres), `symmetry` names the planes whose other side it
-    leaves out; `heal` repairs what has one obvious repair, panels with normals into the body above all.
+    leaves out, `offset` is the place of its origin (m from O); `heal` repairs what has one obvious repair, panels with normals
+    into the body above all.
     """
 
     file: Text | None = None
     unit: Positive | None = None
     symmetry: Literal["none", "xz", "xz+yz"] | None = None
+    offset: Vector3 | None = None
     heal: bool = False
     shape: Shape | None = None
     draught: Positive | None = None
