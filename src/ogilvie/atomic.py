@@ -22,11 +22,10 @@ def write_whole(path: Path, write: Callable[[Path], Any]) -> Path:
     ------
     InputError
         The folder does not exist; something other than a file (a folder, a device) stands in the way.
+    PermissionError
+        The folder is read-only.
     """
-    if path.exists() and not path.is_file():
-        raise InputError(f"{path}: the place of a file expected, something else found. Give another name.")
-    if not path.parent.is_dir():
-        raise InputError(f"{path}: an existing folder expected, no {path.parent} found. Make it first.")
+    check_place(path)
     handle, name = tempfile.mkstemp(prefix=f".{path.stem}-", suffix=path.suffix, dir=path.parent)
     os.close(handle)
     temporary = Path(name)
@@ -37,6 +36,16 @@ def write_whole(path: Path, write: Callable[[Path], Any]) -> Path:
     finally:
         temporary.unlink(missing_ok=True)
     return path
+
+
+def check_place(path: Path) -> None:
+    """Raise InputError or PermissionError where no file can be written, for use before work whose result is to go there."""
+    if path.exists() and not path.is_file():
+        raise InputError(f"{path}: the place of a file expected, something else found. Give another name.")
+    if not path.parent.is_dir():
+        raise InputError(f"{path}: an existing folder expected, no {path.parent} found. Make it first.")
+    if not os.access(path.parent, os.W_OK):
+        raise PermissionError(13, "Permission denied", str(path))
 
 
 def _umask() -> int:

@@ -139,3 +139,22 @@ def test_regular_and_calm():
 )
 def test_start_of_the_statistics(keys, expected):
     assert build_run.skipped(parse_case(HEAD + SEA + f"[simulation]\n{keys}")) == expected
+
+
+def test_default_frequencies_end_where_the_panels_do():
+    """Where they resolve a little less than the default range, no frequency is above; where much less, the range stays."""
+    from ogilvie.app.crosschecks import default_range
+    from ogilvie.hydro.bem_case import resolved_wavenumber
+
+    text = '[hull]\nshape = "box"\nlength = 60.0\nbeam = 20.0\ndraught = 5.0\npanels = {}\n[body]\nkg = 5.0\n'
+    text += "gyradii = [7.0, 17.0, 17.0]\n[sea]\nhs = 1.0\ntp = 8.0\n"
+    ends = {}
+    for panels in (60, 300, 2000):
+        case = parse_case(text.format(panels))
+        hull = build.make_hull(case)
+        high = default_range(hull.beam, case.water.g)[1]
+        resolved = float(np.sqrt(case.water.g * resolved_wavenumber(hull)))
+        last = build.frequencies(case, hull)[-1]
+        assert last == pytest.approx(min(high, resolved) if resolved > 0.75 * high else high)
+        ends[panels] = last < high
+    assert ends == {60: False, 300: True, 2000: False}

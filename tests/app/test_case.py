@@ -159,3 +159,16 @@ def test_paths_start_at_the_case_file(tmp_path):
 
 def test_the_digest_changes_with_the_text():
     assert parse_case(GOOD).digest != parse_case(GOOD + " ").digest
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("hs = 4.0", "hs = 4.0\nhs = 5.0", "stands twice"),
+        ("[sea]", "[body]", "stands twice"),
+        ("hs = 4.0", "hs = 4,5", "Decimals take a point"),
+    ],
+)
+def test_what_the_parser_says_is_explained(old, new, words):
+    with pytest.raises(FormatError, match=words):
+        parse_case(changed(old, new))

@@ -299,3 +299,56 @@ def test_a_hull_or_body_that_cannot_be(spoil, words, tmp_path, box_text):
     message = refused("run", tmp_path / "ship.toml")
     assert all(word in message for word in words), message
     assert not (tmp_path / "ship-results").exists()
+
+
+def test_the_package_runs_as_a_module():
+    done = subprocess.run([sys.executable, "-m", "ogilvie", "--version"], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == f"ogilvie {og.__version__}"
+
+
+def test_a_case_to_be_looked_at_is_told_and_passes(tmp_path, box_text):
+    path = tmp_path / "case.toml"
+    path.write_text(box_text.replace("135.0\n[loads]", "2.3562\n[loads]").replace("[90.0, 135.0", "[0.0, 45.0, 90.0, 135.0"))
+    code, out, err = call("check", path)
+    assert (code, out.strip()) == (0, "case.toml: no mistakes, 1 to look at.")
+    assert "sea.direction_deg: 2.3562: degrees expected; this is 135 deg in radians" in " ".join(err.split())
+
+
+def test_a_mesh_in_millimetres_is_read_with_its_unit(tmp_path):
+    og.write_mesh(og.shapes.box(20.0, 6.0, 2.0, panels=60).scaled(1000.0), tmp_path / "mm.gdf")
+    assert "millimetres?" in call("check", tmp_path / "mm.gdf")[1]
+    code, out, _ = call("check", tmp_path / "mm.gdf", "--unit", "0.001")
+    assert code == 0
+    assert "20 x 6 x 2 m" in out
+    assert "--symmetry: one of none, xz, xz+yz expected" in refused("check", tmp_path / "mm.gdf", "--symmetry", "yz")
+
+
+def test_the_folder_one_is_in_is_no_file():
+    assert "a file expected, a folder found" in refused("check", ".")
+
+
+def test_the_place_of_a_result_is_tried_before_the_work(coefficients, tmp_path, monkeypatch):
+    monkeypatch.setattr("ogilvie.memory.retardation.retardation", lambda *a, **k: pytest.fail("worked for nothing"))
+    assert "Make it first" in refused("identify", coefficients, "-o", tmp_path / "no" / "memory.npz")
+    monkeypatch.setattr(os, "access", lambda place, mode, **options: mode != os.W_OK)  # the superuser may write anywhere
+    assert "no permission" in refused("identify", coefficients, "-o", tmp_path / "memory.npz")
+
+
+def test_a_fluid_memory_of_another_vessel_is_refused(coefficients):
+    from ogilvie.app.build_memory import refuse_memory_of_another
+
+    hydro = og.read_hydro(coefficients)
+    K = og.retardation(hydro, duration=20.0, dt=0.1)
+    refuse_memory_of_another(K, hydro)
+    with pytest.raises(og.InputError, match="another vessel"):
+        refuse_memory_of_another(K, hydro.assign(added_mass_inf=2 * hydro.added_mass_inf))
+
+
+def test_too_little_memory_is_no_defect_of_the_program(coefficients, monkeypatch):
+    def greedy(*args, **options):
+        raise MemoryError("Unable to allocate 53 GiB")
+
+    monkeypatch.setattr("ogilvie.memory.retardation.retardation", greedy)
+    message = refused("identify", coefficients)
+    assert "53 GiB" in message
+    assert "shorter duration" in message

@@ -44,3 +44,35 @@ def test_the_other_process_ends_when_work_is_given_up(jobs):
         painter.draw(jobs)
         process = painter.process
     assert process is None or process.wait(timeout=20) is not None
+
+
+class Noting:
+    """Notes what it computes in itself while it is being packed, as a mesh does."""
+
+    def __init__(self):
+        self.values = np.arange(5.0)
+
+    def __array__(self, dtype=None, copy=None):
+        return self.values
+
+
+def test_what_is_drawn_may_note_results_meanwhile():
+    thing = Noting()
+    with Painter() as painter:
+        painter.draw({"a": Job(plot.custom, (line, thing), "")})
+        handed = painter.jobs["a"].args[1]
+        thing.more = 1
+        assert handed is not thing
+        assert not hasattr(handed, "more")
+        assert painter.finish()["a"][0].startswith(b"\x89PNG")
+
+
+def test_an_object_that_changes_while_it_is_packed_is_drawn_by_the_first_process(jobs, monkeypatch):
+    def changing(*args, **options):
+        raise RuntimeError("dictionary changed size during iteration")
+
+    monkeypatch.setattr(drawing.pickle, "dump", changing)
+    with Painter() as painter:
+        painter.draw(jobs)
+        drawn = painter.finish()
+    assert all(png.startswith(b"\x89PNG") for png, _ in drawn.values())

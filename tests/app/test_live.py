@@ -16,7 +16,7 @@ import pytest
 from typer.testing import CliRunner
 
 import ogilvie as og
-from ogilvie.app import build, build_memory, build_run
+from ogilvie.app import build, build_memory, build_run, live
 from ogilvie.app.case import parse_case
 from ogilvie.app.cli import app
 
@@ -275,3 +275,11 @@ def test_large_motions_are_sent_as_poses_in_the_world(buoy, tmp_path, ear):
     assert len(lines) == 80
     assert lines[-1]["eta"][1] - lines[0]["eta"][1] > 0.05
     assert lines[-1]["eta"][5] == pytest.approx(math.radians(30.0), abs=0.2)
+
+
+@pytest.mark.parametrize("option", [{"origin": "59,10"}, {"x_axis": "west"}, {"fix": "ordinary"}])
+def test_what_json_does_not_hold_is_refused_with_it(option):
+    given = dict(origin="0,0", x_axis="east", fix="simulated") | option
+    options = live.LiveOptions("127.0.0.1", 10110, "json", 1.0, None, None, **given)
+    with pytest.raises(og.InputError, match="only with --format nmea"):
+        _ = options.formatter

@@ -101,7 +101,7 @@ def test_vessels_that_keep_their_place(name, tmp_path):
     (tmp_path / "a.toml").write_text(text)
     code, out, err = call("simulate", tmp_path / "a.toml", "-o", tmp_path / "a.nc")
     assert code == 0, err
-    assert "mean place x, y" in out
+    assert "mean place, x" in out
     run = read_result(tmp_path / "a.nc")
     assert float(np.abs(run.eta.sel(dof=["surge", "sway"])).max()) < 15.0
     assert float(np.abs(run.eta.sel(dof="yaw")).max()) < np.radians(10.0)

@@ -256,3 +256,13 @@ def test_gains_that_are_not_stable_are_refused():
 def test_wrong_rudders_are_refused(arguments, words):
     with pytest.raises(og.InputError, match=words):
         Rudder(**{"area": 30.0, "aspect_ratio": 1.5, "position": [-80.0, 0, 0], **arguments})
+
+
+@pytest.mark.parametrize("heading", [45.0, [(0.0, 0.0), (300.0, 30.0)]])
+def test_headings_in_degrees_are_refused(heading):
+    with pytest.raises(og.InputError, match=r"Degrees\? Write"):
+        Autopilot(heading, max_moment=1e8)
+
+
+def test_a_schedule_may_turn_round_and_round():
+    Autopilot([(0.0, 0.0), (300.0, 6.0), (600.0, 12.0), (900.0, 18.0)], max_moment=1e8)

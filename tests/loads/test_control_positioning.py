@@ -225,3 +225,8 @@ def test_wrong_arguments_are_refused(arguments, words):
 def test_sampling_too_slow_is_refused():
     with pytest.raises(og.InputError, match="DynamicPositioning: the control loop is not stable"):
         DynamicPositioning([0, 0, 0], period=60.0, **PLANT).bind(Surroundings(BODY))
+
+
+def test_a_heading_in_degrees_is_refused():
+    with pytest.raises(og.InputError, match=r"Degrees\? Write 90 \* og.units.deg"):
+        DynamicPositioning((0.0, 0.0, 90.0))

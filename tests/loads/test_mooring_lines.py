@@ -231,3 +231,15 @@ def test_figure_shows_every_line():
     assert len(bars.patches) == 8
     assert "[m]" in plan.get_xlabel()
     assert "kN" in bars.get_ylabel()
+
+
+@pytest.mark.parametrize("mooring", [semisubmersible(friction=0.3), spar(), ragged()])
+def test_tensions_of_many_poses_are_those_of_each(mooring):
+    rng = np.random.default_rng(3)
+    poses = np.array([3.0, 3.0, 0.5, 0.05, 0.05, 0.2]) * rng.uniform(-1, 1, (2, 4, 6))
+    T = mooring.tensions(poses)
+    assert T.shape == (2, 4, len(mooring.lines), 2)
+    for k in np.ndindex(2, 4):
+        np.testing.assert_allclose(T[k], mooring.tensions(poses[k]), rtol=1e-12)
+    with pytest.raises(InputError, match="6"):
+        mooring.tensions(np.zeros((4, 5)))

@@ -252,3 +252,13 @@ def test_arrays_are_read_only(box):
     for array in (hull.vertices, hull.faces, hull.centers, hull.normals, hull.areas, hull.bounds, hull.center_of_buoyancy):
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 0
+
+
+def test_an_open_hull_is_not_sunk_but_a_closed_one_is():
+    corners = [[x, y, z] for z in (-1.0, 0.0) for y in (-1.0, 1.0) for x in (-1.0, 1.0)]
+    faces = [[0, 2, 3, 1], [0, 1, 5, 4], [1, 3, 7, 5], [3, 2, 6, 7], [2, 0, 4, 6], [4, 5, 7, 6]]
+    barge, block = PanelMesh(corners, faces[:5]), PanelMesh(np.array(corners) + [0, 0, -1], faces)
+    assert barge.immersed(1.0).volume == pytest.approx(4.0)
+    with pytest.raises(InputError, match="at most 1 m, the height of"):
+        barge.immersed(1.1)
+    assert block.immersed(3.0).volume == pytest.approx(4.0)

@@ -61,7 +61,7 @@ def test_a_vessel_that_keeps_its_place_has_no_course():
     c, s = np.cos(course.heading), np.sin(course.heading)
     expected = (eta[:, :2] - course.start) @ [[c, -s], [s, c]]
     np.testing.assert_allclose(about_course(made(eta)).eta.values[:, :2], expected)
-    assert course_rows(made(eta))[0][0] == "mean place x, y"
+    assert course_rows(made(eta))[0][0] == "mean place, x"
 
 
 def test_a_vessel_that_turns_keeps_what_has_a_mean():

@@ -127,6 +127,16 @@ def test_memory_table_and_sentence(buoy):
     assert "R\u00b2 of K" not in memory_table(buoy.K, None).head
 
 
+def test_the_worst_coupling_of_a_model_is_named(buoy):
+    from dataclasses import replace
+
+    r2 = np.full((6, 6), 0.99)
+    r2[2, 4] = -0.5
+    assert "-0.5000 of K (heave-pitch)" in describe(replace(buoy.ssm, r2=r2))
+    r2[3, 3] = -0.7
+    assert "-0.7000 of K (roll)" in describe(replace(buoy.ssm, r2=r2))
+
+
 def test_body_and_check_tables(buoy):
     rows = dict(body_table(buoy).rows)
     assert rows["mass"] == "300 t"
@@ -156,3 +166,15 @@ def test_the_window_holds_the_largest_wave(buoy):
     assert first < 700.0 < last
     assert last - first == pytest.approx(300.0)
     assert busiest(buoy.run) == (0.0, 300.0)
+
+
+def test_motions_that_are_rounding_alone_are_zeros(buoy):
+    eta = buoy.run.eta.copy()
+    eta[:, 1] *= 1e-16
+    moved = summary(buoy.run.assign(eta=eta))
+    _, rows = motion_rows(moved, None)
+    assert rows[1] == ["sway", "m", "0", "-", "0", "-"]
+    assert rows[0][2] == "0.141"
+    row = statistics_table(moved, None).rows[1]
+    assert len(row) == len(statistics_table(moved, None).head)
+    assert set(row[2:]) == {"0", "-"}

@@ -170,3 +170,12 @@ def test_wave_that_keeps_pace_has_no_stationary_motion(barge):
     with pytest.raises(og.InputError, match="no stationary motion exists"):
         og.simulate(free, sea, duration=1.0)
     og.simulate(free, sea, duration=1.0, initial="rest")
+
+
+@pytest.mark.parametrize("eta", [[0, 0, 0, 10.0, 0, 0], [0, 0, 0, 0, -5.0, 0]])
+def test_a_pose_in_degrees_is_refused(eta):
+    from ogilvie.sim.state import as_state
+
+    with pytest.raises(og.InputError, match="Degrees"):
+        as_state({"eta": eta})
+    assert as_state({"eta": [0, 0, 0, 3.0, 1.5, 400.0]}).eta[5] == 400.0

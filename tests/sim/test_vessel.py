@@ -82,3 +82,8 @@ def test_roll_decay_of_a_ratio():
     run = og.simulate(vessel, duration=2 * period, dt=period / 400, initial={"eta": [0, 0, 0, 0.1, 0, 0]})
     roll = run.eta.sel(dof="roll").values
     assert np.log(roll[0] / roll[400]) == pytest.approx(2 * np.pi * 0.05 / np.sqrt(1 - 0.05**2), rel=1e-4)
+
+
+def test_a_heading_in_degrees_is_refused():
+    with pytest.raises(og.InputError, match="Degrees"):
+        og.Vessel(og.RigidBody(mass=1.0, cog=[0, 0, 0], inertia=np.eye(3)), heading=45.0)

@@ -1,5 +1,6 @@
 """From a case to hull, body and coefficients."""
 
+import warnings
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -8,7 +9,7 @@ from numpy.typing import NDArray
 from ogilvie.app.case import Case
 from ogilvie.app.crosschecks import default_range
 from ogilvie.body import RigidBody
-from ogilvie.errors import InputError
+from ogilvie.errors import InputError, OgilvieWarning
 from ogilvie.units import deg, knot
 
 if TYPE_CHECKING:
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from ogilvie.mesh.panels import PanelMesh
 
 Array = NDArray[np.float64]
+_LITTLE = 0.75  # of the highest default frequency: panels that resolve less deserve a warning
 
 
 def make_hull(case: Case) -> "PanelMesh | None":
@@ -29,7 +31,12 @@ def make_hull(case: Case) -> "PanelMesh | None":
     from ogilvie.mesh.inspect import require_usable
 
     mesh = _floating(case).immersed()
-    require_usable(mesh, purpose="hull.file")
+    try:
+        require_usable(mesh, purpose="hull.file")
+    except InputError as error:
+        if case.hull.heal or ".flipped()" not in str(error):
+            raise
+        raise InputError(str(error).replace("Use .flipped().", "Give hull.heal = true, which turns them.")) from None
     return mesh
 
 
@@ -51,8 +58,18 @@ def _floating(case: Case) -> "PanelMesh":
     from ogilvie.mesh.files import load_mesh
 
     h: Any = case.hull
-    mesh = load_mesh(case.path(h.file))
-    return mesh if h.draught is None else mesh.translated((0.0, 0.0, -h.draught - mesh.bounds[0, 2]))
+    offset = None if h.offset is None else (*h.offset, 0.0)
+    mesh = load_mesh(case.path(h.file), unit=h.unit, symmetry=h.symmetry, offset=offset)
+    if h.heal:
+        from ogilvie.mesh.inspect import heal
+
+        mesh, found = heal(mesh)
+        for what, count in found.repairs:
+            warnings.warn(f"hull.heal: {what}: {count}", OgilvieWarning)
+    if h.draught is None:
+        return mesh
+    mesh.immersed(h.draught)  # refuses a draught that the mesh cannot have
+    return mesh.translated((0.0, 0.0, -h.draught - mesh.bounds[0, 2]))
 
 
 def _shape(case: Case, *, above_water: bool) -> "PanelMesh":
@@ -133,8 +150,17 @@ def frequencies(case: Case, hull: "PanelMesh") -> Array:
         return np.sort(np.array(c.omega))
     if c.periods is not None:
         return np.sort(2 * np.pi / np.array(c.periods))
-    low, high = (c.omega_min, c.omega_max) if c.omega_min is not None else default_range(hull.beam, case.water.g)
+    low, high = (c.omega_min, c.omega_max) if c.omega_min is not None else _usual(hull, case.water.g)
     return np.linspace(float(low), float(high), c.omega_count)  # type: ignore[arg-type]
+
+
+def _usual(hull: "PanelMesh", g: float) -> tuple[float, float]:
+    """The default range, up to what the panels resolve where that is a little less."""
+    from ogilvie.hydro.bem_case import resolved_wavenumber
+
+    low, high = default_range(hull.beam, g)
+    resolved = float(np.sqrt(g * resolved_wavenumber(hull))) * (1 - 1e-9)
+    return low, min(high, resolved) if _LITTLE * high < resolved else high
 
 
 def directions(case: Case, hull: "PanelMesh | None" = None) -> Array:

@@ -62,6 +62,25 @@ def make_memory(case: Case, hydro: "xr.Dataset", body: RigidBody) -> "tuple[Reta
     return K, ssm
 
 
+#: Difference of A_inf, as a part, beyond which a fluid memory is that of another hull; for one hull it is a few percent.
+_ANOTHER = 0.25
+
+
+def refuse_memory_of_another(K: "Retardation", hydro: "xr.Dataset") -> None:
+    """Raise InputError where a saved fluid memory and the coefficients are those of different vessels, by their A_inf."""
+    rest = radiation_at_rest(hydro)
+    A = rest.added_mass_inf.values if "added_mass_inf" in rest else rest.added_mass.values[-1]
+    dofs = tuple(str(d) for d in rest.influenced_dof.values)
+    for i, dof in enumerate(dofs):
+        j = K.dofs.index(dof) if dof in K.dofs else -1
+        if j < 0 or abs(K.A_inf[j, j] - A[i, i]) > _ANOTHER * abs(A[i, i]):
+            found = "none" if j < 0 else f"{K.A_inf[j, j]:.4g}"
+            raise InputError(
+                f"--memory: infinite-frequency added mass of {dof} near that of the coefficients, {A[i, i]:.4g}, expected, "
+                f"{found} found: the fluid memory of another vessel. Identify it from these coefficients."
+            )
+
+
 def _identified(m: Memory, hydro: "xr.Dataset", body: RigidBody, stiffness: Array) -> "tuple[Retardation, StateSpace | None]":
     from ogilvie.memory.identify import identify
     from ogilvie.memory.retardation import retardation

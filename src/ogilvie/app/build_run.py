@@ -114,9 +114,11 @@ def make_vessel(
     ssm: "StateSpace | None",
     *,
     hull: "PanelMesh | None" = None,
+    sea: "Sea | None" = None,
 ) -> "Vessel":
-    """Return the vessel with the loads of a case."""
+    """Return the vessel with the loads of a case; slow drift, which needs the sea, where that is given."""
     from ogilvie.app.build_control import control_loads, mooring
+    from ogilvie.app.build_drift import drift_loads
     from ogilvie.app.build_loads import Made, plain_loads, restoring
     from ogilvie.loads.excitation import WaveExcitation
     from ogilvie.loads.mooring import LinearMooring
@@ -127,7 +129,10 @@ def make_vessel(
     made = Made(case, body, hydro, hull)
     loads: list[Any] = [restoring(made), Convolution(K) if ssm is None else StateSpaceRadiation(ssm)]
     if case.sea.spectrum != "calm":
-        loads.append(WaveExcitation(hydro))
+        slow = case.slow_drift is not None and case.large
+        loads.append(WaveExcitation(hydro, position="slow" if slow else "instantaneous"))
+    if case.slow_drift is not None and sea is not None:
+        loads += drift_loads(case, hydro, sea)
     stiffness = mooring_stiffness(case, body, hydro)
     if stiffness.any():
         loads.append(LinearMooring(stiffness))
@@ -137,6 +142,24 @@ def make_vessel(
         loads.append(LinearDamping(ratio=case.loads.damping_ratio.given))
     loads += plain_loads(made) + control_loads(made)
     return Vessel(body, loads=tuple(loads), speed=case.speed, heading=radians(case.vessel.heading_deg))
+
+
+def finished_vessel(
+    case: Case,
+    body: "RigidBody",
+    hydro: "xr.Dataset",
+    K: "Retardation",
+    ssm: "StateSpace | None",
+    *,
+    hull: "PanelMesh | None",
+    sea: "Sea | None",
+) -> "Vessel":
+    """Return the vessel with all its loads, after the mean drift of the hull where slow drift needs it."""
+    from ogilvie.app.build_drift import with_drift
+
+    if case.slow_drift is not None:
+        hydro = with_drift(case, make_vessel(case, body, hydro, K, ssm, hull=hull), hydro, body, hull)
+    return make_vessel(case, body, hydro, K, ssm, hull=hull, sea=sea)
 
 
 def motions(case: Case) -> str:

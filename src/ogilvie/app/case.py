@@ -1,6 +1,7 @@
 """A case: one TOML file from hull or coefficients to results, with every mistake in it reported at once."""
 
 import hashlib
+import re
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,7 +14,7 @@ from ogilvie.app.crosschecks_control import large_motions
 from ogilvie.app.mistakes import describe, unknown_key
 from ogilvie.app.section_base import Section
 from ogilvie.app.section_control import Autopilot, Positioning, SpeedKeeping
-from ogilvie.app.section_loads import Current, Damping, HullLift, Mooring, Resistance, Restoring, Wind
+from ogilvie.app.section_loads import Current, Damping, HullLift, Mooring, Resistance, Restoring, SlowDrift, Wind
 from ogilvie.app.sections import (
     OPTIONAL,
     SECTIONS,
@@ -66,6 +67,7 @@ class Case:
     hull_lift: HullLift | None = None
     wind: Wind | None = None
     current: Current | None = None
+    slow_drift: SlowDrift | None = None
     mooring: Mooring | None = None
     autopilot: Autopilot | None = None
     speed_keeping: SpeedKeeping | None = None
@@ -178,5 +180,15 @@ def _toml_problem(error: tomllib.TOMLDecodeError, text: str) -> str:
         line = int(message.split("(at line ")[1].split(",")[0])
     lines = text.splitlines()
     if line and line <= len(lines):
-        return f"{message}: {lines[line - 1].strip()!r}"
+        found = lines[line - 1].strip()
+        return f"{message}: {found!r}{_toml_hint(message, found)}"
     return message
+
+
+def _toml_hint(message: str, line: str) -> str:
+    """What the parser's words mean for those who write no parsers."""
+    if "overwrite" in message or "Cannot declare" in message:
+        return ". The key or section stands twice; keep one."
+    if re.search(r"=\s*-?\d+,\d", line):
+        return ". Decimals take a point, 4.5."
+    return ""

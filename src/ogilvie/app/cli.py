@@ -115,14 +115,21 @@ def hydro(
     draught: Annotated[float | None, typer.Option("--draught", metavar="M", help="Mesh: clip at this draught, m.")] = None,
     depth: Annotated[float, typer.Option("--depth", metavar="M", help="Mesh: water depth, m.")] = float("inf"),
     speed_knots: Annotated[float, typer.Option("--speed-knots", metavar="KN", help="Mesh: forward speed.")] = 0.0,
+    unit: Annotated[
+        float | None, typer.Option("--unit", metavar="M", help="Mesh: length of its unit, m; 0.001 for mm.")
+    ] = None,
+    symmetry: Annotated[
+        str | None, typer.Option("--symmetry", help="Mesh: planes whose other side it leaves out; none, xz or xz+yz.")
+    ] = None,
 ) -> None:
     """Solve a hull for its coefficients, or convert a file.
 
     The hull is that of a case, or a mesh file with the options below.
     """
-    from ogilvie.app.commands import MeshOptions, hydro_command
+    from ogilvie.app.commands import MeshFile, MeshOptions, hydro_command
 
-    mesh = MeshOptions(omega=omega, directions=directions, draught=draught, depth=depth, speed_knots=speed_knots)
+    file = MeshFile(draught=draught, unit=unit, symmetry=symmetry)
+    mesh = MeshOptions(file, omega=omega, directions=directions, depth=depth, speed_knots=speed_knots)
     hydro_command(source, output=output, wamit=wamit, scale=scale, mesh=mesh)
 
 
@@ -130,15 +137,22 @@ def hydro(
 @guarded
 def check(
     source: Annotated[Path, typer.Argument(metavar="FILE", help="A mesh, coefficients, or a CASE.toml.")],
-    draught: Annotated[float | None, typer.Option("--draught", metavar="M", help="Clip a mesh at this draught, m.")] = None,
+    draught: Annotated[float | None, typer.Option("--draught", metavar="M", help="Mesh: clip at this draught, m.")] = None,
+    unit: Annotated[
+        float | None, typer.Option("--unit", metavar="M", help="Mesh: length of its unit, m; 0.001 for mm.")
+    ] = None,
+    symmetry: Annotated[
+        str | None, typer.Option("--symmetry", help="Mesh: planes whose other side it leaves out; none, xz or xz+yz.")
+    ] = None,
 ) -> None:
     """Look critically at a mesh, at coefficients or a case.
 
     Exit code 1 when an error is found, 0 with warnings or none.
     """
-    from ogilvie.app.commands import check_command
+    from ogilvie.app.commands import MeshFile, check_command
 
-    raise typer.Exit(0 if check_command(source, draught=draught) else 1)
+    mesh = MeshFile(draught=draught, unit=unit, symmetry=symmetry)
+    raise typer.Exit(0 if check_command(source, mesh=mesh) else 1)
 
 
 @app.command()

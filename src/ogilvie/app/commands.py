@@ -8,6 +8,7 @@ import numpy as np
 
 from ogilvie.app.console import say, step, warn
 from ogilvie.app.files import collected_warnings, kind_of, read_memory, read_result, write_memory, write_result
+from ogilvie.atomic import check_place
 from ogilvie.errors import InputError
 from ogilvie.units import deg, knot
 
@@ -38,12 +39,30 @@ def _stop_if_incomplete(run: Any, kept: str) -> None:
 
 
 @dataclass(frozen=True)
+class MeshFile:
+    """How a mesh file is to be read: draught (m) that it is cut at, length of its unit (m), planes of symmetry."""
+
+    draught: float | None = None
+    unit: float | None = None
+    symmetry: str | None = None
+
+    def load(self, source: Path) -> Any:
+        """The mesh as the file has it, without a cut."""
+        from ogilvie.mesh.files import load_mesh
+
+        known = ("none", "xz", "xz+yz")
+        if self.symmetry not in (None, *known):
+            raise InputError(f"--symmetry: one of {', '.join(known)} expected, {self.symmetry!r} found.")
+        return load_mesh(source, unit=self.unit, symmetry=self.symmetry)  # type: ignore[arg-type]
+
+
+@dataclass(frozen=True)
 class MeshOptions:
     """How a mesh file is to be solved, as the command line has it (deg, knots)."""
 
+    file: MeshFile
     omega: str | None
     directions: str
-    draught: float | None
     depth: float
     speed_knots: float
 
@@ -75,6 +94,7 @@ def hydro_command(source: Path, *, output: Path, wamit: Path | None, scale: floa
     from ogilvie.hydro.wamit_write import write_wamit
 
     kind, notes = kind_of(source), list[str]()
+    check_place(output)
     with collected_warnings(notes):
         if kind == "case":
             hydro = _solve_case(source)
@@ -100,10 +120,9 @@ def _solve_case(source: Path) -> Any:
 
 def _solve_mesh(source: Path, options: MeshOptions) -> Any:
     from ogilvie.hydro.capytaine import solve_bem
-    from ogilvie.mesh.files import load_mesh
 
     return solve_bem(
-        load_mesh(source).immersed(options.draught),
+        options.file.load(source).immersed(options.file.draught),
         omega=options.frequencies,
         wave_direction=options.wave_directions,
         water_depth=options.depth,
@@ -121,20 +140,14 @@ def read_coefficients(path: Path, *, scale: float | None = None) -> Any:
     return read_hydro(path, ulen=scale)
 
 
-def check_command(source: Path, *, draught: float | None) -> bool:
+def check_command(source: Path, *, mesh: MeshFile) -> bool:
     """Print what is found; return whether it can be used."""
     kind, notes = kind_of(source), list[str]()
     with collected_warnings(notes):
         if kind == "mesh":
-            good = _check_mesh(source, draught)
+            good = _check_mesh(source, mesh)
         elif kind == "case":
-            from ogilvie.app.build import make_hull
-            from ogilvie.app.build_control import try_parts
-            from ogilvie.app.case import read_case
-
-            case = read_case(source)
-            try_parts(case, make_hull(case))
-            say(f"{source.name}: no mistakes.")
+            _check_case(source)
             good = True
         elif kind == "coefficients":
             from ogilvie.hydro.checks import check
@@ -145,16 +158,29 @@ def check_command(source: Path, *, draught: float | None) -> bool:
         else:
             raise InputError(f"{source.name}: a mesh, coefficients or a case expected, a {kind} found.")
     _tell(notes)
+    if kind == "case":
+        say(f"{source.name}: no mistakes{f', {len(notes)} to look at' if notes else ''}.")
     return good
 
 
-def _check_mesh(source: Path, draught: float | None) -> bool:
-    from ogilvie.mesh.files import load_mesh
+def _check_case(source: Path) -> None:
+    from ogilvie.app import build
+    from ogilvie.app.case import read_case
+    from ogilvie.app.foresight import foresee, foresee_data
+
+    case = read_case(source)
+    hull = build.make_hull(case)
+    foresee(case, hull)
+    if case.coefficients.file is not None:
+        foresee_data(case, build.make_hydro(case, hull, build.make_body(case, hull) if case.body else None))
+
+
+def _check_mesh(source: Path, options: MeshFile) -> bool:
     from ogilvie.mesh.hydrostatics import hydrostatics
     from ogilvie.mesh.inspect import check_mesh
 
-    mesh = load_mesh(source)
-    mesh = mesh.immersed(draught) if draught is not None else mesh
+    mesh = options.load(source)
+    mesh = mesh.immersed(options.draught) if options.draught is not None else mesh
     report = check_mesh(mesh)
     say(str(report))
     if report.ok:
@@ -169,6 +195,7 @@ def identify_command(source: Path, *, output: Path, r2: float, duration: float |
     from ogilvie.memory.retardation import retardation
 
     notes: list[str] = []
+    check_place(output)
     with collected_warnings(notes):
         hydro = read_coefficients(source)
         K = retardation(hydro, duration=duration, tail=tail)
@@ -189,27 +216,32 @@ def identify_command(source: Path, *, output: Path, r2: float, duration: float |
 def simulate_command(path: Path, *, coefficients: Path | None, memory: Path | None, output: Path) -> None:
     """Simulate a case, from saved coefficients and fluid memory where they are given."""
     from ogilvie.app import build, build_run
-    from ogilvie.app.build_control import try_parts
-    from ogilvie.app.build_memory import make_memory
+    from ogilvie.app.build_memory import make_memory, refuse_memory_of_another
     from ogilvie.app.case import read_case
+    from ogilvie.app.foresight import foresee, foresee_data
     from ogilvie.app.summary import print_motions
 
     case, notes = read_case(path), list[str]()
+    check_place(output)
     with collected_warnings(notes):
         hull = build.make_hull(case)
-        try_parts(case, hull)
+        foresee(case, hull)
         body = build.make_body(case, hull) if case.body is not None else None
         with step("coefficients"):
             if coefficients is None:
                 hydro = build.make_hydro(case, hull, body)
             else:
                 hydro = build.fitted_to_speed(case, read_coefficients(coefficients), hull)
+        foresee_data(case, hydro)
         body = body or build.make_body(case, hull, hydro)
         with step("fluid memory"):
             K, ssm = make_memory(case, hydro, body) if memory is None else read_memory(memory)
+            if memory is not None:
+                refuse_memory_of_another(K, hydro)
         with step("simulation"):
             sea = build_run.make_sea(case, build_run.make_spectrum(case), hydro)
-            run = build_run.simulate_case(case, build_run.make_vessel(case, body, hydro, K, ssm, hull=hull), sea)
+            vessel = build_run.finished_vessel(case, body, hydro, K, ssm, hull=hull, sea=sea)
+            run = build_run.simulate_case(case, vessel, sea)
         write_result(run, output)
         statistics = build_run.statistics(case, run)
     _tell(notes)

@@ -12,6 +12,8 @@ P = ParamSpec("P")
 
 #: What `--debug` switches on: a traceback for every error.
 DEBUG_VARIABLE = "OGILVIE_DEBUG"
+#: s; a stage that takes longer is told of where the output is no terminal too.
+LONG = 3.0
 #: Width of tables where the output is no terminal.
 FILE_WIDTH = 160
 
@@ -72,12 +74,15 @@ def table(
 
 @contextmanager
 def step(name: str) -> Iterator[Callable[[str], None]]:
-    """Time one stage of the work; on a terminal a line tells what came out of it."""
+    """Time one stage of the work; a line tells what came out of it, in a log only where it took its time."""
     began = time.perf_counter()
     outcome: list[str] = []
     yield outcome.append
-    if sys.stderr.isatty():
-        seconds = time.perf_counter() - began
+    seconds = time.perf_counter() - began
+    if not sys.stderr.isatty():
+        if seconds > LONG:
+            print(f"{name}: {' '.join(outcome) or 'done'} ({seconds:.0f} s)", file=sys.stderr, flush=True)
+    else:
         stderr().print(f"[green]\u2713[/green] {name:<14} {_plain(' '.join(outcome))} [dim]{seconds:.1f} s[/dim]")
 
 
@@ -108,6 +113,10 @@ def guarded(command: Callable[P, Any]) -> Callable[P, Any]:
             raise typer.Exit(0) from None
         except OSError as error:
             _report("error", _system_sentence(error))
+            code, cause = 2, error
+        except MemoryError as error:
+            advice = "Take a shorter duration, a larger step or output_step, fewer panels, frequencies or realisations."
+            _report("error", f"more memory than this machine has is needed ({str(error) or 'no more is left'}). {advice}")
             code, cause = 2, error
         except Exception as error:
             _report("unexpected error", f"{type(error).__name__}: {error}")

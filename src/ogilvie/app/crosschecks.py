@@ -45,6 +45,8 @@ def _hull(s: dict[str, Any], present: set[str], folder: Path) -> Iterator[str]:
         for key in hull.model_fields_set & (set(_ALL_SHAPE_KEYS) - {"draught"} | {"panels"}):
             yield f"hull.{key}: only with shape; the mesh file has its own. Remove it."
     else:
+        for key in sorted(hull.model_fields_set & {"unit", "symmetry", "offset", "heal"}):
+            yield f"hull.{key}: only with file. Remove it."
         needed = SHAPE_KEYS[hull.shape]
         for key in needed:
             if getattr(hull, key) is None:

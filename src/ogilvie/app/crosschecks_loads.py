@@ -14,7 +14,7 @@ DECKED = ("s175", "particulars")
 def load_checks(s: dict[str, Any], present: set[str], folder: Path) -> Iterator[str]:
     """Yield a sentence for every contradiction in the sections on forces."""
     s = {**s, "hullless": hullless(s, present)}
-    for check in (_restoring, _damping, _resistance, _lift, _wind, _current, _mooring):
+    for check in (_restoring, _damping, _resistance, _lift, _wind, _current, _slow_drift, _mooring):
         yield from check(s, folder)
 
 
@@ -159,6 +159,23 @@ def _current(s: dict[str, Any], folder: Path) -> Iterator[str]:
         yield "current.profile: rows [z, speed] with z <= 0 (below the water) and speed >= 0 expected, others found."
     elif any(b >= a for a, b in pairwise(z)) and any(b <= a for a, b in pairwise(z)):
         yield "current.profile: z in falling (or rising) order expected, others found."
+
+
+def _slow_drift(s: dict[str, Any], folder: Path) -> Iterator[str]:
+    d, sea, vessel = s["slow_drift"], s["sea"], s["vessel"]
+    if d is None:
+        return
+    if sea is not None and sea.spectrum == "calm":
+        yield "slow_drift: a sea expected, calm water found. Remove it."
+    if vessel is not None and vessel.speed_knots > 0:
+        yield (
+            f"slow_drift: a vessel without forward speed expected, vessel.speed_knots = {vessel.speed_knots:g} found. Added "
+            "resistance is for Python: ogilvie.SlowDrift of ogilvie.mean_drift(speed=)."
+        )
+    if "method" in d.model_fields_set and s["hullless"]:
+        yield "slow_drift.method: how the drift of a [hull] is computed; there is none. Remove it."
+    if d.approximation == "full" and s["coefficients"] is not None and s["coefficients"].file is None:
+        yield 'slow_drift.approximation: "full": coefficients.file with a WAMIT .12d expected, none found.'
 
 
 def _mooring(s: dict[str, Any], folder: Path) -> Iterator[str]:

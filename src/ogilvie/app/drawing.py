@@ -12,6 +12,8 @@ import subprocess
 import sys
 import threading
 from collections.abc import Mapping
+from copy import copy
+from dataclasses import replace
 
 from ogilvie.post.report_figures import Job
 
@@ -47,9 +49,12 @@ class Painter:
             self.process.kill()
 
     def draw(self, jobs: Mapping[str, Job]) -> None:
-        """Have figures drawn, by the other process from now on or in :meth:`finish`."""
+        """Have figures drawn, by the other process from now on or in :meth:`finish`.
+
+        Shallow copies are handed over, since objects note what they computed while they are being packed.
+        """
         with self.lock:
-            self.jobs |= jobs
+            self.jobs |= {name: _apart(job) for name, job in jobs.items()}
             self.waiting += jobs
             self.lock.notify()
 
@@ -76,7 +81,7 @@ class Painter:
         jobs, answers = self.process.stdin, self.process.stdout
         assert jobs is not None
         assert answers is not None
-        with contextlib.suppress(EOFError, OSError, pickle.PickleError), jobs, answers:
+        with contextlib.suppress(EOFError, OSError, RuntimeError, pickle.PickleError), jobs, answers:
             while True:
                 with self.lock:
                     self.lock.wait_for(lambda: self.waiting or self.closing)
@@ -88,6 +93,12 @@ class Painter:
                 pickle.dump(self.jobs[name], jobs, protocol=pickle.HIGHEST_PROTOCOL)
                 jobs.flush()
                 self.drawn[name] = pickle.load(answers)
+
+
+def _apart(job: Job) -> Job:
+    """The job with shallow copies of what it is drawn from."""
+    options = {key: copy(value) for key, value in job.options.items()}
+    return replace(job, args=tuple(copy(x) for x in job.args), options=options)
 
 
 def _cores() -> int:

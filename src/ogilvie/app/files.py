@@ -131,6 +131,8 @@ def kind_of(path: Path) -> str:
     FileNotFoundError
         Neither such a file or folder, nor files with this stem.
     """
+    if not path.name:
+        raise IsADirectoryError(21, "Is a directory", str(path))
     suffix = path.suffix.lower()
     if not path.exists() and not list(path.parent.glob(path.name + ".*")):
         raise FileNotFoundError(2, "No such file", str(path))

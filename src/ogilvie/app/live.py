@@ -11,11 +11,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ogilvie.app import build, build_run
-from ogilvie.app.build_control import try_parts
 from ogilvie.app.build_memory import make_memory
 from ogilvie.app.case import Case, read_case
 from ogilvie.app.console import say, stderr, step, warn
 from ogilvie.app.files import collected_warnings
+from ogilvie.app.foresight import foresee, foresee_data
 from ogilvie.errors import InputError, OgilvieWarning
 from ogilvie.post.broadcast import UdpSender
 from ogilvie.post.nmea import Nmea
@@ -49,6 +49,9 @@ class LiveOptions:
     def formatter(self) -> Any:
         """What turns a state into a datagram."""
         if self.format == "json":
+            given = {"origin": self.origin != "0,0", "x-axis": self.x_axis != "east", "fix": self.fix != "simulated"}
+            for option in (name for name, is_given in given.items() if is_given):
+                raise InputError(f"--{option}: only with --format nmea; json has the pose in the world. Remove it.")
             return "json"
         if self.format != "nmea":
             raise InputError(f"--format: json or nmea expected, {self.format!r} found.")
@@ -115,15 +118,16 @@ def make_stepper(case: Case, duration: float) -> "Stepper":
     s, notes = case.simulation, list[str]()
     with collected_warnings(notes):
         hull = build.make_hull(case)
-        try_parts(case, hull)
+        foresee(case, hull)
         body = build.make_body(case, hull) if case.body is not None else None
         with step("coefficients"):
             hydro = build.make_hydro(case, hull, body)
+        foresee_data(case, hydro)
         body = body or build.make_body(case, hull, hydro)
         with step("fluid memory"):
             K, ssm = make_memory(case, hydro, body)
         sea = build_run.make_sea(case, build_run.make_spectrum(case), hydro)
-        vessel = build_run.make_vessel(case, body, hydro, K, ssm, hull=hull)
+        vessel = build_run.finished_vessel(case, body, hydro, K, ssm, hull=hull, sea=sea)
         options: Any = {"method": s.method, "motions": build_run.motions(case), "initial": build_run.initial(case)}
         with step("stepper"):
             stepper = Stepper(vessel, sea, dt=s.dt, ramp=s.ramp, **options)

@@ -2,6 +2,7 @@
 
 import platform
 import time
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
@@ -11,15 +12,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ogilvie.app import build, build_run
-from ogilvie.app.build_control import try_parts
 from ogilvie.app.build_memory import make_memory
 from ogilvie.app.case import Case
 from ogilvie.app.compare import frequency_domain
 from ogilvie.app.console import step, warn
 from ogilvie.app.drawing import Painter
 from ogilvie.app.files import collected_warnings, write_bytes, write_memory, write_result, write_text
+from ogilvie.app.foresight import foresee, foresee_data
 from ogilvie.app.weather import weather
-from ogilvie.errors import ConvergenceError
+from ogilvie.atomic import check_place
+from ogilvie.errors import ConvergenceError, OgilvieWarning
 from ogilvie.post.report import Findings, report
 from ogilvie.post.report_figures import (
     Job,
@@ -34,6 +36,8 @@ from ogilvie.post.report_figures import (
 if TYPE_CHECKING:
     import xarray as xr
 
+    from ogilvie.loads.mooring_lines import CatenaryMooring
+    from ogilvie.mesh.panels import PanelMesh
     from ogilvie.sim.vessel import Vessel
 
 
@@ -52,6 +56,7 @@ class Workspace:
             raise NotADirectoryError(20, "Not a directory", str(self.folder))
         self.new = not self.folder.exists()
         self.folder.mkdir(parents=True, exist_ok=True)
+        check_place(self.folder / "report.html")
         return self
 
     def keep(self, path: Path) -> Path:
@@ -118,7 +123,7 @@ def _prepared(case: Case, place: Workspace, painter: Painter, progress: bool | N
 
     with step("hull") as tell:
         hull = build.make_hull(case)
-        try_parts(case, hull)
+        _told_at_once(case, hull)
         if hull is not None:
             painter.draw(hull_figures(hull))
             tell(f"{hull.full().n_faces} panels, {hull.volume:.6g} m3")
@@ -127,6 +132,7 @@ def _prepared(case: Case, place: Workspace, painter: Painter, progress: bool | N
         place.solving = case.coefficients.file is None and case.coefficients.cache
         hydro = build.make_hydro(case, hull, body, progress=progress)
         place.solving = False
+        foresee_data(case, hydro)
         body = body or build.make_body(case, hull, hydro)
         place.keep(write_netcdf(hydro, place.folder / "coefficients.nc"))
         tell(f"{hydro.sizes['omega']} frequencies, {hydro.sizes.get('wave_direction', 0)} directions")
@@ -135,7 +141,8 @@ def _prepared(case: Case, place: Workspace, painter: Painter, progress: bool | N
         tell(f"{len(checks.findings)} findings" if checks.findings else "no findings")
     if not checks.ok:
         failed = sum(f.severity == "error" for f in checks.findings)
-        warn(f"the coefficients fail {failed} of their checks (last section of the report): look before you trust the motions.")
+        where = "Checks and warnings in the report"
+        warn(f"the coefficients fail {failed} of their checks ({where}): look before you trust the motions.")
     with step("fluid memory") as tell:
         K, ssm = make_memory(case, hydro, body)
         place.keep(write_memory(place.folder / "memory.npz", K, ssm))
@@ -154,12 +161,24 @@ def _prepared(case: Case, place: Workspace, painter: Painter, progress: bool | N
     )
 
 
+def _told_at_once(case: Case, hull: "PanelMesh | None") -> None:
+    """Warn of what is doubtful before the long work, and let it go into the report as well."""
+    doubts: list[str] = []
+    with collected_warnings(doubts):
+        foresee(case, hull)
+    for doubt in doubts:
+        warn(doubt)
+        warnings.warn(doubt, OgilvieWarning)
+
+
 def _simulated(case: Case, f: Findings, place: Workspace, painter: Painter, progress: bool | None) -> Findings:
-    """Sea, vessel, motions and their statistics."""
+    """Sea, mean drift, vessel, motions and their statistics."""
+    if case.slow_drift is not None:
+        f = replace(f, hydro=_drifting(case, f, place, progress))
     with step("simulation") as tell:
         spectrum = build_run.make_spectrum(case)
         sea = build_run.make_sea(case, spectrum, f.hydro)
-        vessel = build_run.make_vessel(case, f.body, f.hydro, f.K, f.ssm, hull=f.hull)
+        vessel = build_run.make_vessel(case, f.body, f.hydro, f.K, f.ssm, hull=f.hull, sea=sea)
         compared = frequency_domain(case, vessel, f.hydro, f.body, spectrum)
         painter.draw(wave_figures(spectrum, sea, compared.get("response")))
         run = build_run.simulate_case(case, vessel, sea, progress=progress)
@@ -170,16 +189,40 @@ def _simulated(case: Case, f: Findings, place: Workspace, painter: Painter, prog
     if statistics is not None and "surge" not in statistics.dof.values and case.large:
         compared = {"response": compared["response"]} if "response" in compared else {}  # it turned away from that heading
     painter.draw(run_figures(run, spectrum=spectrum, expected=compared.get("expected_spectra"), skip=skip, hull=f.hull))
-    painter.draw(_moored(vessel, run, skip))
-    said: dict[str, Any] = {"weather": weather(case, f.hull), "loads": vessel.names}
+    lines = _lines(vessel, run)
+    painter.draw(_moored(lines, run, skip))
+    said: dict[str, Any] = {"weather": weather(case, f.hull), "loads": vessel.names, "lines": lines}
     return replace(f, spectrum=spectrum, sea=sea, run=run, skip=skip, statistics=statistics, **said, **compared)
 
 
-def _moored(vessel: "Vessel", run: "xr.Dataset", skip: float) -> dict[str, Job]:
-    """The picture of catenary lines at the mean pose."""
+def _drifting(case: Case, f: Findings, place: Workspace, progress: bool | None) -> "xr.Dataset":
+    """The coefficients with their mean drift."""
+    from ogilvie.app.build_drift import holds_drift, with_drift
+    from ogilvie.hydro.netcdf import write_netcdf
+
+    with step("mean drift") as tell:
+        if holds_drift(case, f.hydro):
+            tell("that of the coefficients")
+            return f.hydro
+        still = build_run.make_vessel(case, f.body, f.hydro, f.K, f.ssm, hull=f.hull)
+        place.solving = case.coefficients.cache
+        hydro = with_drift(case, still, f.hydro, f.body, f.hull, progress=progress)
+        place.solving = False
+        write_netcdf(hydro, place.folder / "coefficients.nc")
+        tell(f"{hydro.sizes['omega']} frequencies, {hydro.sizes['wave_direction']} directions")
+    return hydro
+
+
+def _lines(vessel: "Vessel", run: "xr.Dataset") -> "CatenaryMooring | None":
+    """The catenary lines, whose tensions a run of large motions tells."""
     from ogilvie.loads.mooring_lines import CatenaryMooring
 
-    lines = next((load for load in vessel.loads if isinstance(load, CatenaryMooring)), None)
+    lines = (load for load in vessel.loads if isinstance(load, CatenaryMooring))
+    return next(lines, None) if run.attrs.get("motions") == "large" else None
+
+
+def _moored(lines: "CatenaryMooring | None", run: "xr.Dataset", skip: float) -> dict[str, Job]:
+    """The picture of catenary lines at the mean pose."""
     if lines is None or float(run.time[-1]) <= skip:
         return {}
     eta = run.eta.sel(time=slice(skip, None)).values

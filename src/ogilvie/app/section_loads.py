@@ -203,3 +203,16 @@ class Mooring(Section):
     linearised: bool = False
     table: MooringTables | None = None
     moordyn: MoorDyn | None = None
+
+
+class SlowDrift(Section):
+    """Mean and slowly varying second-order forces of the waves, from the mean drift of the coefficients or of the hull.
+
+    Coefficients that hold a mean drift (WAMIT .8, .9; .12d for "full") are taken as they are. Otherwise it is computed from the
+    hull by `method`: the far field alone gives surge, sway and yaw; with "auto" heave, roll and pitch have it too, at twice the
+    work. `damping` is wave-drift damping, by default where there are two or more directions.
+    """
+
+    approximation: Literal["newman-arithmetic", "newman-geometric", "newman-1974", "full", "mean"] = "newman-arithmetic"
+    method: Literal["far", "near", "control_surface", "auto"] = "far"
+    damping: bool | None = None

@@ -21,7 +21,7 @@ from ogilvie.app.section_base import (
     Vector3,
 )
 from ogilvie.app.section_control import Autopilot, Positioning, SpeedKeeping
-from ogilvie.app.section_loads import Current, Damping, HullLift, Mooring, Resistance, Restoring, Wind
+from ogilvie.app.section_loads import Current, Damping, HullLift, Mooring, Resistance, Restoring, SlowDrift, Wind
 
 Shape = Literal["s175", "box", "hemisphere", "cylinder", "wigley", "particulars"]
 Spectrum = Literal["jonswap", "bretschneider", "pierson-moskowitz", "torsethaugen", "regular", "calm"]
@@ -36,9 +36,18 @@ class Vessel(Section):
 
 
 class Hull(Section):
-    """A mesh file, or a shape made here with its parameters (m); depth, from keel to deck, is for restoring at large heel."""
+    """A mesh file, or a shape made here with its parameters (m); depth, from keel to deck, is for restoring at large heel.
+
+    Of a file: `unit` is the length of its unit (m; 0.001 for millimetres), `symmetry` names the planes whose other side it
+    leaves out, `offset` is the place of its origin (m from O); `heal` repairs what has one obvious repair, panels with normals
+    into the body above all.
+    """
 
     file: Text | None = None
+    unit: Positive | None = None
+    symmetry: Literal["none", "xz", "xz+yz"] | None = None
+    offset: Vector3 | None = None
+    heal: bool = False
     shape: Shape | None = None
     draught: Positive | None = None
     depth: Positive | None = None
@@ -67,8 +76,8 @@ class Body(Section):
 class Water(Section):
     """Density kg/m3, gravity m/s2, depth m (``inf`` for deep water)."""
 
-    rho: Positive = 1025.0
-    g: Positive = 9.80665
+    rho: Annotated[float, Field(ge=500, le=2000)] = 1025.0
+    g: Annotated[float, Field(ge=1, le=30)] = 9.80665
     depth: Annotated[float, Field(gt=0)] = float("inf")
 
 
@@ -192,6 +201,7 @@ OPTIONAL = (
     "hull_lift",
     "wind",
     "current",
+    "slow_drift",
     "mooring",
     "autopilot",
     "speed_keeping",
@@ -214,6 +224,7 @@ SECTIONS: dict[str, type[Section]] = {
     "hull_lift": HullLift,
     "wind": Wind,
     "current": Current,
+    "slow_drift": SlowDrift,
     "mooring": Mooring,
     "autopilot": Autopilot,
     "speed_keeping": SpeedKeeping,

@@ -78,7 +78,8 @@ def haskind(hydro: xr.Dataset) -> Check:
         i = int(diagonal[w].argmax())
         sentence = (
             f"B({dofs[i]}, {dofs[i]}) and the wave forces contradict each other by {100 * diagonal[w, i]:.3g} % of its peak at "
-            f"{omega[w]:.4g} rad/s (Haskind): an irregular frequency, or forces and damping of different hulls."
+            f"{omega[w]:.4g} rad/s (Haskind): an irregular frequency, too few panels (roll first), or forces and damping of "
+            "different hulls."
         )
         findings.append(
             Finding(kind, "error", (dofs[i],), float(omega[w]), float(diagonal[w, i]), HASKIND, sentence, local=True)

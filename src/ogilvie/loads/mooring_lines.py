@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from ogilvie.errors import ConvergenceError, InputError
 from ogilvie.frames import euler_rate_matrix, rotation_matrix
 from ogilvie.loads.base import MOORING, Surroundings, Terms, matrix6, vector6
-from ogilvie.loads.catenary import FAILED, GROUNDED, SLACK, SUSPENDED, anchor_tension, solve_line
+from ogilvie.loads.catenary import FAILED, GROUNDED, SLACK, SUSPENDED, anchor_tension, compiled, solve_line
 from ogilvie.loads.catenary_shape import line_shape
 from ogilvie.loads.kernel import ETA, ROTATION, Kernel, load_kernel
 from ogilvie.loads.mooring import LinearMooring
@@ -46,6 +46,25 @@ def _lines_kernel(x, data, own, force):
         force[3] += b * fz - c * fy
         force[4] += c * fx - a * fz
         force[5] += a * fy - b * fx
+
+
+@compiled
+def _all_tensions(poses, rows, out):
+    for k in range(poses.shape[0]):
+        eta = poses[k]
+        cr, sr = np.cos(eta[3]), np.sin(eta[3])
+        ct, st = np.cos(eta[4]), np.sin(eta[4])
+        cp, sp = np.cos(eta[5]), np.sin(eta[5])
+        for i in range(rows.shape[0]):
+            p = rows[i]
+            a, b, c = p[3], p[4], p[5]
+            forward, up = ct * a + st * (sr * b + cr * c), -st * a + ct * (sr * b + cr * c)
+            port = cr * b - sr * c
+            dx = p[0] - eta[0] - cp * forward + sp * port
+            dy = p[1] - eta[1] - sp * forward - cp * port
+            H, V, kind = solve_line(np.hypot(dx, dy), eta[2] + up - p[2], p[6], p[7], p[8], p[9], p[10])
+            out[k, i, 0] = np.hypot(H, V) if kind != FAILED else np.nan
+            out[k, i, 1] = anchor_tension(H, V, p[6], p[7], p[9], kind) if kind != FAILED else np.nan
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -113,7 +132,17 @@ class CatenaryMooring:
         return force
 
     def tensions(self, eta: ArrayLike | None = None) -> Array:
-        """Return the tensions (lines, 2) at fairlead and anchor, N."""
+        """Return the tensions (lines, 2) at fairlead and anchor, N, or those (..., lines, 2) of many poses (..., 6): `run.eta`.
+
+        Among many poses those that a line has no solution for are NaN.
+        """
+        if eta is not None and np.ndim(eta) > 1:
+            poses = np.ascontiguousarray(eta, dtype=float)
+            if poses.shape[-1] != 6:
+                raise InputError(f"CatenaryMooring: tensions: poses (..., 6) expected, shape {poses.shape} found.")
+            out = np.empty((poses.size // 6, len(self.lines), 2))
+            _all_tensions(poses.reshape(-1, 6), np.stack([line.row for line in self.lines]), out)
+            return out.reshape(*poses.shape[:-1], len(self.lines), 2)
         solved = self._solved(_pose(eta))
         anchors = [
             anchor_tension(H, V, p.length, p.weight, p.friction, k) for p, (H, V, k) in zip(self.lines, solved, strict=True)

@@ -27,6 +27,7 @@ CLOSE = 1e-6  #: part of the hull's extent below which two vertices are one
 WARP = 0.1  #: corner above the panel's mean plane / square root of the area
 ASPECT = 50.0  #: longest side squared / area
 VOLUMES = 0.01  #: difference of the three volumes / volume
+_LONGEST = 1e4  # m; nothing afloat is longer
 
 
 def check_mesh(mesh: PanelMesh) -> MeshReport:
@@ -170,6 +171,8 @@ def _position(mesh: PanelMesh) -> list[Finding]:
     if mesh.bounds[0, 2] >= -mesh.tolerance:
         advice = "give the draught: .immersed(draught); z axis down: .rotated(phi=pi)"
         findings.append(Finding("hull wholly above water", "error", 1, advice))
+    if (extent := float(np.ptp(mesh.bounds, axis=0).max())) > _LONGEST:
+        findings.append(Finding(f"extent {extent:.4g} m", "warning", 1, "millimetres? unit=0.001 of load_mesh, --unit 0.001"))
     above = (z > mesh.tolerance).any(axis=1)
     findings.append(
         _finding("panels above water", "error", above, "clip with .immersed(), or give the draught: .immersed(draught)")

@@ -296,24 +296,34 @@ class PanelMesh:
         Raises
         ------
         InputError
-            Draught not positive, or nothing is below the water.
+            Draught not positive, nothing is below the water, or an open hull would be wholly below it.
         """
         mesh = self
         if draught is not None:
             if not (np.isfinite(draught) and draught > 0.0):
                 raise InputError(f"immersed: a positive draught in m expected, {draught!r} found.")
             mesh = self.translated((0.0, 0.0, -draught - self.bounds[0, 2]))
+            mesh._refuse_sunk(draught)
         vertices, faces = clip_below(mesh.vertices, mesh.faces, tolerance=mesh.tolerance)
         if len(faces) == 0:
             low = mesh.bounds[0, 2]
             raise InputError(
-                f"immersed: panels of {self.name!r} below z = 0 expected, lowest z {low:.6g} m found; give a draught."
+                f"immersed: panels of {self.name!r} below z = 0 expected, lowest z {low + 0.0:.6g} m found; give a draught."
             )
         keeps_lid = mesh.lid is not None and np.abs(mesh.lid.bounds[:, 2]).max() <= mesh.tolerance
         surface = mesh.surface if mesh._cut_at_waterline_of_surface() else None
         return replace(mesh, vertices=vertices, faces=faces, lid=mesh.lid if keeps_lid else None, surface=surface)
 
     # ---- helpers
+
+    def _refuse_sunk(self, draught: float) -> None:
+        """Refuse a hull that is open above and ends below the water."""
+        top = float(self.bounds[1, 2])
+        if top < -self.tolerance and abs(self.area_vectors[:, 2].sum()) > 1e-3 * self.areas.sum():
+            raise InputError(
+                f"immersed: a draught of at most {draught + top:.6g} m, the height of {self.name!r}, expected, {draught:g} "
+                "found: the hull would end below the water. A mesh that was cut at its waterline needs no draught."
+            )
 
     def _cut_at_waterline_of_surface(self) -> bool:
         """Return whether z = 0 cuts nothing off the hull's smooth surface."""

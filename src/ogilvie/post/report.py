@@ -8,6 +8,7 @@ import numpy as np
 
 from ogilvie.post.page import Picture, Section, Table, render_page
 from ogilvie.post.report_course import course_table
+from ogilvie.post.report_mooring import tension_table
 from ogilvie.post.report_tables import (
     body_table,
     check_table,
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from ogilvie.body import RigidBody
+    from ogilvie.loads.mooring_lines import CatenaryMooring
     from ogilvie.memory.retardation import Retardation
     from ogilvie.memory.statespace import StateSpace
     from ogilvie.mesh.hydrostatics import Hydrostatics
@@ -57,6 +59,8 @@ class Findings:
     checks : check report of the coefficients
     skip : float
         Start of the statistics, s.
+    lines : CatenaryMooring
+        Mooring lines of a run of large motions.
     weather : tuple of (str, str)
         What wind and current are.
     loads : tuple of str
@@ -84,6 +88,7 @@ class Findings:
     expected_spectra: "xr.DataArray | None" = None
     checks: Any = None
     skip: float = 0.0
+    lines: "CatenaryMooring | None" = None
     weather: tuple[tuple[str, str], ...] = ()
     loads: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
@@ -116,6 +121,8 @@ def _sections(f: Findings, drawn: Mapping[str, Picture]) -> Sequence[Section]:
     findings = [finding.sentence for finding in f.checks.findings] if f.checks is not None else []
     motion_tables = [statistics_table(f.statistics, f.expected)] if f.statistics is not None else []
     motion_tables += course_table(f.run, skip=f.skip) if f.run is not None else []
+    if f.lines is not None and f.run is not None and float(f.run.time[-1] - f.run.time[0]) > f.skip:
+        motion_tables.append(tension_table(f.lines, f.run, skip=f.skip))
     weather = [Table(f.weather, caption="Wind and current.", wrap=frozenset({1}))] if f.weather else []
     return [
         Section("Overview", pictures=shown("overview")),
@@ -150,7 +157,7 @@ def _facts(f: Findings) -> list[tuple[str, str]]:
     facts = []
     if f.hydrostatics is not None:
         facts += [
-            ("displacement", f"{f.hydrostatics.displacement / 1000:.5g} t"),
+            ("displacement", f"{number(f.hydrostatics.displacement / 1000, 5)} t"),
             ("transverse GM", f"{f.hydrostatics.GM_T:.2f} m"),
         ]
     facts += [
@@ -176,8 +183,14 @@ def _about_hydro(f: Findings) -> str:
     )
     if "wave_direction" in h.coords:
         b = np.degrees(h.wave_direction.values)
-        text += f" {len(b)} wave direction{'s' if len(b) > 1 else ''}: {', '.join(f'{x:.4g}' for x in b[:13])}\u00b0."
+        text += f" {len(b)} wave direction{'s' if len(b) > 1 else ''} relative to the bow: {_listed(b)}\u00b0."
     return text
+
+
+def _listed(values: Any) -> str:
+    """Numbers one by one, or where they are many the first two and the last."""
+    words = [f"{x:.4g}" for x in values]
+    return ", ".join(words) if len(words) <= 13 else f"{words[0]}, {words[1]}, ... {words[-1]}"
 
 
 def _about_memory(f: Findings) -> str:
@@ -193,9 +206,15 @@ def describe(ssm: "StateSpace") -> str:
     if ssm.is_passive is not None:
         words.append("passive" if ssm.is_passive else f"not passive (margin {ssm.passivity_margin:.2g})")
     worst = {"A": ssm.r2_added_mass, "B": ssm.r2_damping, "K": ssm.r2}
-    lowest = [f"{np.nanmin(r2):.4f} of {letter}" for letter, r2 in worst.items() if r2 is not None]
+    lowest = [f"{np.nanmin(r2):.4f} of {letter} ({_entry(ssm.dofs, r2)})" for letter, r2 in worst.items() if r2 is not None]
     quality = f"lowest R\u00b2 of a coupling {', '.join(lowest)}"
     return f"State space of {ssm.order} states ({ssm.method}), {', '.join(words)}; {quality}."
+
+
+def _entry(dofs: Sequence[str], r2: Any) -> str:
+    """The name of the entry with the lowest R2."""
+    i, j = (int(k) for k in np.unravel_index(np.nanargmin(r2), np.shape(r2)))
+    return dofs[i] if i == j else f"{dofs[i]}-{dofs[j]}"
 
 
 def _model_notes(f: Findings) -> Sequence[str]:
@@ -215,6 +234,8 @@ def _about_run(f: Findings) -> str:
         text += f" Loads: {', '.join(f.loads)}."
     if f.skip > 0:
         text += f" Statistics from {number(f.skip)} s on."
+    if f.spectrum is not None and "slow_drift" not in f.loads and {"mooring", "positioning"} & set(f.loads):
+        text += " Waves of first order alone: their mean and slow drift is left out, which a vessel that is held may feel most."
     return text + (" INTERRUPTED: this is what had been computed." if not run.attrs.get("complete", 1) else "")
 
 

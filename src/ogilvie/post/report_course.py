@@ -40,7 +40,8 @@ def course_rows(run: "xr.Dataset", *, skip: float = 0.0) -> list[tuple[str, str]
     else:
         places = np.array([c.start for c in found])
         rows += [
-            ("mean place x, y", f"{_spread(places[:, 0])}, {_spread(places[:, 1])} m"),
+            ("mean place, x", f"{_spread(places[:, 0])} m"),
+            ("mean place, y", f"{_spread(places[:, 1])} m"),
             ("mean heading", f"{_spread(headings)} deg"),
         ]
     return rows + _signals(run, skip)

@@ -15,13 +15,16 @@ if TYPE_CHECKING:
     from ogilvie.mesh.hydrostatics import Hydrostatics
 
 
+_STILL = 1e-9  # m or rad; what moves less is rounding
+
+
 def number(value: float, digits: int = 4) -> str:
     """Return a number with some significant digits, without needless zeros or exponents.
 
     Examples
     --------
-    >>> number(24015.3, 5), number(0.01234), number(float("nan"))
-    ('24015', '0.01234', '-')
+    >>> number(24015.3, 5), number(0.01234), number(float("nan")), number(112316.2, 5)
+    ('24015', '0.01234', '-', '112316')
     """
     if not np.isfinite(value):
         return "-" if np.isnan(value) else "\u221e"
@@ -177,6 +180,9 @@ def motion_rows(statistics: "xr.Dataset", expected: "xr.Dataset | None") -> tupl
     for dof in map(str, statistics.dof.values):
         s = statistics.sel(dof=dof)
         factor, unit = (180 / np.pi, "deg") if dof in ("roll", "pitch", "yaw") else (1.0, "m")
+        if float(s["std"]) < _STILL:
+            rows.append([dof, unit, *("0" if name in ("std", "largest") else "-" for name in head[2:])])
+            continue
         low, high = (number(float(v) * factor, 3) for v in s.std_interval.values)
         row = [dof, unit, number(float(s["std"]) * factor, 3), f"{low} to {high}"]
         if expected is not None:
@@ -195,6 +201,10 @@ def statistics_table(statistics: "xr.Dataset", expected: "xr.Dataset | None") ->
     for dof in map(str, statistics.dof.values):
         s = statistics.sel(dof=dof)
         factor, unit = (180 / np.pi, "deg") if dof in ("roll", "pitch", "yaw") else (1.0, "m")
+        if float(s["std"]) < _STILL:
+            mean = number(_zero(float(s["mean"]) * factor), 3)
+            rows.append([dof, unit, mean, *("0" if name in ("std", "min", "max") else "-" for name in head[3:])])
+            continue
 
         def cell(key: str, s: Any = s, factor: float = factor) -> str:
             return number(_zero(float(s[key]) * factor), 3)
@@ -211,4 +221,6 @@ def statistics_table(statistics: "xr.Dataset", expected: "xr.Dataset | None") ->
         f"Motions of O{where}: {statistics.attrs['realisations']} x {number(statistics.attrs['duration'])} s. Significant and "
         "highest third are double amplitudes; the expected maximum is that of one realisation, above the mean."
     )
+    if expected is not None:
+        caption += " The frequency domain holds waves of first order alone."
     return Table(rows, head, caption, left=frozenset({0, 1}))

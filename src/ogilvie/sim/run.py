@@ -53,7 +53,7 @@ class Run:
         wanted = [key for key in MOTIONS if key in names] + [f"force_{f.name}" for f in loads]
         signals = engine.signals if "signals" in names else ()
         shape = (engine.realisations, steps // stride + 1)
-        _check_memory(shape[0] * shape[1], 6 * len(wanted) + 1 + len(signals))
+        check_memory(shape[0] * shape[1], 6 * len(wanted) + 1 + len(signals))
         series = {key: np.empty((*shape, 6)) for key in wanted}
         series |= {variable: np.empty(shape) for variable, _, _ in signals}
         if "elevation" in names and engine.seaway is not None:
@@ -168,7 +168,7 @@ class Run:
         )
 
 
-def _check_memory(rows: int, columns: int) -> None:
+def check_memory(rows: int, columns: int) -> None:
     """Refuse a result that does not fit in the machine's memory."""
     need = 8 * rows * columns
     try:

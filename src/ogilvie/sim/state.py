@@ -113,7 +113,13 @@ def as_state(value: "State | Mapping[str, Any]") -> State:
     unknown = [k for k in value if k not in _FIELDS]
     if unknown:
         raise InputError(f"initial: keys out of {', '.join(_FIELDS)} expected, {', '.join(map(repr, unknown))} found.")
-    return State(value.get("eta"), value.get("nu"), memory=value.get("memory"), time=value.get("time", 0.0))
+    state = State(value.get("eta"), value.get("nu"), memory=value.get("memory"), time=value.get("time", 0.0))
+    for i, name, most in ((3, "roll", np.pi), (4, "pitch", np.pi / 2)):
+        if (largest := float(np.abs(state.eta[..., i]).max())) > most:
+            raise InputError(
+                f"initial: {name} within {most:.4g} rad expected, {largest:g} found. Degrees? Write {largest:g} * og.units.deg."
+            )
+    return state
 
 
 def _vectors(value: ArrayLike | None, what: str) -> Array:

@@ -32,7 +32,7 @@ class Vessel:
     DoubleCountingError
         Two loads cover one physical effect; the message names both.
     InputError
-        No rigid body, something that is not a load, speed negative or not finite.
+        No rigid body, something that is not a load, speed negative or not finite, a heading beyond a whole turn (degrees?).
 
     Examples
     --------
@@ -65,6 +65,11 @@ class Vessel:
             raise InputError(f"Vessel: a speed >= 0 in m/s expected, {self.speed!r} found.")
         if not np.isfinite(self.heading):
             raise InputError(f"Vessel: a finite heading in rad expected, {self.heading!r} found.")
+        if abs(self.heading) > 2.0 * np.pi + 1e-9:
+            found = f"{float(self.heading):g}"
+            raise InputError(
+                f"Vessel: heading: rad within -2 pi..2 pi expected, {found} found. Degrees? {found} * og.units.deg."
+            )
         object.__setattr__(self, "loads", loads)
         object.__setattr__(self, "speed", float(self.speed))
         object.__setattr__(self, "heading", float(self.heading))

@@ -1,6 +1,7 @@
 """Irregular seas: components drawn from a spectrum."""
 
 from collections.abc import Sequence
+from math import ceil
 from typing import Literal
 
 import numpy as np
@@ -142,7 +143,8 @@ def _grid(spectrum: Spectrum, first: float, last: float, duration: float, n: int
     k = np.arange(max(np.ceil(first / step), 1.0), np.floor(last / step) + 1.0)
     if len(k) < 20:
         raise InputError(
-            f"duration: at least 20 components expected, {duration:.6g} s gives {len(k)} from {first:.4g} to {last:.4g} rad/s."
+            f"duration: at least 20 components expected, {duration:.6g} s gives {len(k)} from {first:.4g} to {last:.4g} rad/s. "
+            f"Take at least {ceil(21 * 2 * np.pi / (last - first))} s, or a number of components."
         )
     edges = step * np.r_[k - 0.5, k[-1] + 0.5]
     return step * k, np.diff(spectrum.cumulative(edges))

@@ -98,8 +98,8 @@ def check_direction(direction: ArrayLike) -> None:
     """Raise :class:`InputError` unless directions are finite and within +-2 pi."""
     b = np.asarray(direction, dtype=float)
     if not np.all(np.abs(b) <= 2.0 * np.pi + 1e-9):
-        worst = b.flat[int(np.argmax(np.abs(np.nan_to_num(b, nan=np.inf))))]
-        raise InputError(f"direction: rad within -2 pi..2 pi expected, {worst!r} found. Degrees? Write 180 * og.units.deg.")
+        worst = f"{float(b.flat[int(np.argmax(np.abs(np.nan_to_num(b, nan=np.inf))))]):g}"
+        raise InputError(f"direction: rad within -2 pi..2 pi expected, {worst} found. Degrees? Write {worst} * og.units.deg.")
 
 
 def _norm(a: float) -> float:

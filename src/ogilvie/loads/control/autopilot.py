@@ -14,7 +14,7 @@ from ogilvie.loads.control.observer import WaveFilter
 from ogilvie.loads.control.pid import check_sampling, pid_gains
 from ogilvie.loads.control.reference import reference_data
 from ogilvie.loads.control.rudder import RUDDER_DATA, Rudder
-from ogilvie.loads.control.schedule import schedule
+from ogilvie.loads.control.schedule import refuse_degrees, schedule
 from ogilvie.loads.kernel import Sampled
 
 Array = NDArray[Any]
@@ -92,6 +92,7 @@ class Autopilot:
     def __post_init__(self) -> None:
         what = "Autopilot: "
         object.__setattr__(self, "heading", schedule(self.heading, 1, what + "heading"))
+        refuse_degrees(np.asarray(self.heading), what + "heading")
         if (self.rudder is None) == (self.max_moment is None):
             raise InputError(f"{what}exactly one of rudder and max_moment expected.")
         if self.rudder is not None and not isinstance(self.rudder, Rudder):

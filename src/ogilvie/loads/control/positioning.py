@@ -15,7 +15,7 @@ from ogilvie.loads.control.checks import NO_LIMIT, horizontal, limit, limits, po
 from ogilvie.loads.control.observer import WAVE, WaveFilter
 from ogilvie.loads.control.pid import check_sampling, pid_gains
 from ogilvie.loads.control.reference import reference_data
-from ogilvie.loads.control.schedule import schedule
+from ogilvie.loads.control.schedule import refuse_degrees, schedule
 from ogilvie.loads.control.speed import SPEED_CONTROL
 from ogilvie.loads.control.thruster import PLANE, Thruster, check_capability, horizontal_arm
 from ogilvie.loads.kernel import Sampled
@@ -98,10 +98,12 @@ class DynamicPositioning:
 
     def __post_init__(self) -> None:
         what = "DynamicPositioning: "
+        setpoint = schedule(self.setpoint, 3, what + "setpoint")
+        refuse_degrees(setpoint, what + "setpoint")
         frequency = _three(self.natural_frequency, what + "natural_frequency", "rad/s")
         reference = float(frequency.min()) if self.reference_frequency is None else self.reference_frequency
         checked = {
-            "setpoint": schedule(self.setpoint, 3, what + "setpoint"),
+            "setpoint": setpoint,
             "natural_frequency": frequency,
             "damping": _three(self.damping, what + "damping", "-"),
             "reference_frequency": _three(reference, what + "reference_frequency", "rad/s"),

@@ -60,3 +60,18 @@ def row_at(rows: Array, n: int, width: int, t: float) -> int:
     while i + 1 < n and rows[(i + 1) * (width + 1)] <= t:
         i += 1
     return i * (width + 1) + 1
+
+
+def refuse_degrees(rows: Array, what: str) -> None:
+    """Raise InputError where headings, the last column, begin or jump by more than a whole turn, as degrees would.
+
+    Examples
+    --------
+    >>> refuse_degrees(schedule([(0, 0.0), (60, 0.5)], 1, "heading"), "heading")
+    """
+    turns = np.abs(np.diff(np.concatenate([[0.0], rows[:, -1]])))
+    if turns.max() > 2.0 * np.pi + 1e-9:
+        found = f"{rows[int(turns.argmax()), -1]:g}"
+        raise InputError(
+            f"{what}: headings in rad that turn by at most 2 pi expected, {found} found. Degrees? Write {found} * og.units.deg."
+        )

@@ -148,7 +148,7 @@ def _motion_unit(dof: str, values: Any) -> tuple[float, str]:
 
 def _force_unit(dof: str, values: Any) -> tuple[float, str]:
     factor, prefix = power(np.abs(values))
-    return factor, prefix + ("N" if is_rotation(dof) else "N/m")
+    return factor, prefix + ("N m/m" if is_rotation(dof) else "N/m")
 
 
 def _amplitude_phase(X: "xr.DataArray", dofs: Sequence[str] | None, compare: "xr.DataArray | None", unit: Any) -> Any:
