@@ -64,6 +64,13 @@ def hull():
     return og.shapes.box(40.0, 12.0, 4.0, panels=80)
 
 
+def drifting(hydro):
+    """The data set with a mean drift over frequency, alike from all directions."""
+    shape = (hydro.sizes["omega"], hydro.sizes["wave_direction"], hydro.sizes["influenced_dof"])
+    drift = -1e4 * np.broadcast_to(hydro.omega.values[:, None, None] ** 2, shape)
+    return hydro.assign(mean_drift=(("omega", "wave_direction", "influenced_dof"), drift))
+
+
 @pytest.fixture(scope="module")
 def every(hydro, memory, response, sea, run, hull):
     """All figures by name."""
@@ -73,6 +80,7 @@ def every(hydro, memory, response, sea, run, hull):
         "entry": plot.coefficients(hydro, entries=[("surge", "pitch")]),
         "retardation": plot.retardation(*memory),
         "excitation": plot.excitation(hydro),
+        "drift": plot.drift(drifting(hydro)),
         "rao": plot.rao(response),
         "spectrum": plot.spectrum(spectrum, sea=sea),
         "motions": plot.motions(run),
@@ -189,6 +197,20 @@ def test_a_window_of_a_run(run):
         plot.motions(run, window=(1000.0, 2000.0))
     with pytest.raises(InputError, match="names among surge, sway"):
         plot.motions(run, dofs=["heeve"])
+
+
+def test_drift_is_drawn_in_round_units_where_it_is_known(hydro):
+    data = drifting(hydro)
+    fig = plot.drift(data)
+    assert [ax.get_title(loc="left") for ax in fig.axes] == [d for d in ("surge", "sway", "yaw") if d in data.influenced_dof]
+    line = fig.axes[0].lines[0]
+    np.testing.assert_allclose(line.get_ydata() * 1e3, data.mean_drift.values[:, 0, 0], rtol=1e-12)
+    assert "10\u00b3 N/m\u00b2" in fig.axes[0].get_ylabel()
+    with pytest.raises(InputError, match="mean_drift expected, none found"):
+        plot.drift(hydro)
+    unknown = data.assign(mean_drift=data.mean_drift.where(data.influenced_dof != "surge"))
+    with pytest.raises(InputError, match="surge found"):
+        plot.drift(unknown, dofs=["surge"])
 
 
 def test_excitation_needs_forces(hydro):

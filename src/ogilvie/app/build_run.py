@@ -115,8 +115,9 @@ def make_vessel(
     *,
     hull: "PanelMesh | None" = None,
     sea: "Sea | None" = None,
+    drift: "xr.Dataset | None" = None,
 ) -> "Vessel":
-    """Return the vessel with the loads of a case; slow drift, which needs the sea, where that is given."""
+    """Return the vessel with the loads of a case; slow drift, which needs its data and the sea, where these are given."""
     from ogilvie.app.build_control import control_loads, mooring
     from ogilvie.app.build_drift import drift_loads
     from ogilvie.app.build_loads import Made, plain_loads, restoring
@@ -131,8 +132,8 @@ def make_vessel(
     if case.sea.spectrum != "calm":
         slow = case.slow_drift is not None and case.large
         loads.append(WaveExcitation(hydro, position="slow" if slow else "instantaneous"))
-    if case.slow_drift is not None and sea is not None:
-        loads += drift_loads(case, hydro, sea)
+    if sea is not None and drift is not None:
+        loads += drift_loads(case, drift, sea)
     stiffness = mooring_stiffness(case, body, hydro)
     if stiffness.any():
         loads.append(LinearMooring(stiffness))
@@ -154,12 +155,13 @@ def finished_vessel(
     hull: "PanelMesh | None",
     sea: "Sea | None",
 ) -> "Vessel":
-    """Return the vessel with all its loads, after the mean drift of the hull where slow drift needs it."""
-    from ogilvie.app.build_drift import with_drift
+    """Return the vessel with all its loads, after the drift of the hull where slow drift needs it."""
+    from ogilvie.app.build_drift import drift_data
 
-    if case.slow_drift is not None:
-        hydro = with_drift(case, make_vessel(case, body, hydro, K, ssm, hull=hull), hydro, body, hull)
-    return make_vessel(case, body, hydro, K, ssm, hull=hull, sea=sea)
+    drift = None
+    if case.slow_drift is not None and sea is not None:
+        drift = drift_data(case, make_vessel(case, body, hydro, K, ssm, hull=hull), hydro, body, hull, sea)
+    return make_vessel(case, body, hydro, K, ssm, hull=hull, sea=sea, drift=drift)
 
 
 def motions(case: Case) -> str:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from itertools import pairwise
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -167,15 +168,37 @@ def _slow_drift(s: dict[str, Any], folder: Path) -> Iterator[str]:
         return
     if sea is not None and sea.spectrum == "calm":
         yield "slow_drift: a sea expected, calm water found. Remove it."
-    if vessel is not None and vessel.speed_knots > 0:
+    full, at_speed = d.approximation == "full", vessel is not None and vessel.speed_knots > 0
+    for key in sorted(d.model_fields_set & {"method", "second_order", "omega_count"}):
+        if s["hullless"]:
+            yield f"slow_drift.{key}: how the drift of a [hull] is computed; there is none. Remove it."
+    if full and "method" in d.model_fields_set:
+        yield 'slow_drift.method: how the mean drift is computed; not with approximation "full". Remove it.'
+    if not full and "second_order" in d.model_fields_set:
+        yield 'slow_drift.second_order: only with approximation "full". Remove it.'
+    if not full and not at_speed and "omega_count" in d.model_fields_set:
+        yield 'slow_drift.omega_count: only at speed or with approximation "full"; else [coefficients] has the frequencies.'
+    if not at_speed and "short_waves" in d.model_fields_set:
+        yield "slow_drift.short_waves: only at speed. Remove it."
+    if at_speed:
+        yield from _drift_at_speed(s, d)
+
+
+def _drift_at_speed(s: dict[str, Any], d: Any) -> Iterator[str]:
+    knots, water = s["vessel"].speed_knots, s["water"]
+    if d.approximation == "full":
+        yield f'slow_drift.approximation: "full" is for a vessel at rest; one of newman-... expected at {knots:g} knots.'
+    if d.damping:
+        yield f"slow_drift.damping: for a vessel at rest; at {knots:g} knots the drift holds the speed. Remove it."
+    if water is not None and isfinite(water.depth) and d.method in ("far", "auto"):
+        found = f"{d.method!r} found"
+        yield f'slow_drift.method: "control_surface" or "near" expected at speed in water of {water.depth:g} m, {found}.'
+    run = s["simulation"]
+    if run is not None and run.motions != "large" and s["speed_keeping"] is None and s["resistance"] is None:
         yield (
-            f"slow_drift: a vessel without forward speed expected, vessel.speed_knots = {vessel.speed_knots:g} found. Added "
-            "resistance is for Python: ogilvie.SlowDrift of ogilvie.mean_drift(speed=)."
+            'slow_drift: added resistance slows a ship down: [speed_keeping], [resistance] or simulation.motions = "large" '
+            "expected at speed, none found."
         )
-    if "method" in d.model_fields_set and s["hullless"]:
-        yield "slow_drift.method: how the drift of a [hull] is computed; there is none. Remove it."
-    if d.approximation == "full" and s["coefficients"] is not None and s["coefficients"].file is None:
-        yield 'slow_drift.approximation: "full": coefficients.file with a WAMIT .12d expected, none found.'
 
 
 def _mooring(s: dict[str, Any], folder: Path) -> Iterator[str]:

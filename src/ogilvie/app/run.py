@@ -25,6 +25,7 @@ from ogilvie.errors import ConvergenceError, OgilvieWarning
 from ogilvie.post.report import Findings, report
 from ogilvie.post.report_figures import (
     Job,
+    drift_figure,
     hull_figures,
     memory_figures,
     mooring_figure,
@@ -39,6 +40,7 @@ if TYPE_CHECKING:
     from ogilvie.loads.mooring_lines import CatenaryMooring
     from ogilvie.mesh.panels import PanelMesh
     from ogilvie.sim.vessel import Vessel
+    from ogilvie.waves.field import Sea
 
 
 @dataclass(eq=False)
@@ -173,12 +175,14 @@ def _told_at_once(case: Case, hull: "PanelMesh | None") -> None:
 
 def _simulated(case: Case, f: Findings, place: Workspace, painter: Painter, progress: bool | None) -> Findings:
     """Sea, mean drift, vessel, motions and their statistics."""
-    if case.slow_drift is not None:
-        f = replace(f, hydro=_drifting(case, f, place, progress))
+    spectrum = build_run.make_spectrum(case)
+    sea, drift = build_run.make_sea(case, spectrum, f.hydro), None
+    if case.slow_drift is not None and sea is not None:
+        drift = _drifting(case, f, sea, place, progress)
+        painter.draw(drift_figure(drift))
+        f = replace(f, hydro=drift) if _extends(drift, f.hydro) else f
     with step("simulation") as tell:
-        spectrum = build_run.make_spectrum(case)
-        sea = build_run.make_sea(case, spectrum, f.hydro)
-        vessel = build_run.make_vessel(case, f.body, f.hydro, f.K, f.ssm, hull=f.hull, sea=sea)
+        vessel = build_run.make_vessel(case, f.body, f.hydro, f.K, f.ssm, hull=f.hull, sea=sea, drift=drift)
         compared = frequency_domain(case, vessel, f.hydro, f.body, spectrum)
         painter.draw(wave_figures(spectrum, sea, compared.get("response")))
         run = build_run.simulate_case(case, vessel, sea, progress=progress)
@@ -195,22 +199,30 @@ def _simulated(case: Case, f: Findings, place: Workspace, painter: Painter, prog
     return replace(f, spectrum=spectrum, sea=sea, run=run, skip=skip, statistics=statistics, **said, **compared)
 
 
-def _drifting(case: Case, f: Findings, place: Workspace, progress: bool | None) -> "xr.Dataset":
-    """The coefficients with their mean drift."""
-    from ogilvie.app.build_drift import holds_drift, with_drift
+def _drifting(case: Case, f: Findings, sea: "Sea", place: Workspace, progress: bool | None) -> "xr.Dataset":
+    """What slow drift is made from: the coefficients with their mean drift, or a data set of its own."""
+    from ogilvie.app.build_drift import drift_data, holds_drift
     from ogilvie.hydro.netcdf import write_netcdf
 
-    with step("mean drift") as tell:
+    with step("mean drift" if case.speed == 0.0 else "added resistance") as tell:
         if holds_drift(case, f.hydro):
             tell("that of the coefficients")
             return f.hydro
         still = build_run.make_vessel(case, f.body, f.hydro, f.K, f.ssm, hull=f.hull)
         place.solving = case.coefficients.cache
-        hydro = with_drift(case, still, f.hydro, f.body, f.hull, progress=progress)
+        drift = drift_data(case, still, f.hydro, f.body, f.hull, sea, progress=progress)
         place.solving = False
-        write_netcdf(hydro, place.folder / "coefficients.nc")
-        tell(f"{hydro.sizes['omega']} frequencies, {hydro.sizes['wave_direction']} directions")
-    return hydro
+        if _extends(drift, f.hydro):
+            write_netcdf(drift, place.folder / "coefficients.nc")
+        else:
+            place.keep(write_result(drift, place.folder / "drift.nc"))
+        tell(f"{drift.sizes['omega']} frequencies, {drift.sizes['wave_direction']} directions")
+    return drift
+
+
+def _extends(drift: "xr.Dataset", hydro: "xr.Dataset") -> bool:
+    """Whether drift is the coefficients with something added."""
+    return drift.omega.equals(hydro.omega) and set(hydro.data_vars) <= set(drift.data_vars)
 
 
 def _lines(vessel: "Vessel", run: "xr.Dataset") -> "CatenaryMooring | None":

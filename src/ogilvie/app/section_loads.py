@@ -206,13 +206,19 @@ class Mooring(Section):
 
 
 class SlowDrift(Section):
-    """Mean and slowly varying second-order forces of the waves, from the mean drift of the coefficients or of the hull.
+    """Mean and slowly varying second-order forces of the waves, from the drift of the coefficients or of the hull.
 
     Coefficients that hold a mean drift (WAMIT .8, .9; .12d for "full") are taken as they are. Otherwise it is computed from the
     hull by `method`: the far field alone gives surge, sway and yaw; with "auto" heave, roll and pitch have it too, at twice the
-    work. `damping` is wave-drift damping, by default where there are two or more directions.
+    work. At the vessel's speed its mean is the added resistance. Then, and for "full" (which `second_order` belongs to), it
+    is computed at `omega_count` frequencies of the sea. `damping` is wave-drift damping, by default at rest where there are
+    two or more directions. At speed `short_waves` puts reflection at the waterline in the place of waves that the panels do not
+    resolve, and under those shorter than the ship.
     """
 
     approximation: Literal["newman-arithmetic", "newman-geometric", "newman-1974", "full", "mean"] = "newman-arithmetic"
     method: Literal["far", "near", "control_surface", "auto"] = "far"
+    second_order: Literal["none", "pinkster"] = "none"
+    omega_count: Annotated[int, Field(ge=4, le=200)] = 16
+    short_waves: bool = True
     damping: bool | None = None

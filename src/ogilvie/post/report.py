@@ -127,7 +127,7 @@ def _sections(f: Findings, drawn: Mapping[str, Picture]) -> Sequence[Section]:
     return [
         Section("Overview", pictures=shown("overview")),
         Section("Hull and hydrostatics", pictures=shown("hull"), tables=[*statics, body_table(f)], narrow=True),
-        Section("Hydrodynamic coefficients", [_about_hydro(f)], shown("coefficients", "excitation")),
+        Section("Hydrodynamic coefficients", [_about_hydro(f)], shown("coefficients", "excitation", "drift")),
         Section(
             "Fluid memory",
             [_about_memory(f)],

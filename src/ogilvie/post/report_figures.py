@@ -8,6 +8,7 @@ import numpy as np
 
 from ogilvie.post import plot
 from ogilvie.post.course import about_course
+from ogilvie.units import knot
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -63,6 +64,16 @@ def wave_figures(spectrum: "Spectrum | None", sea: "Sea | None", response: "xr.D
         caption = "Wave spectrum and the components of the sea that was simulated."
         jobs["spectrum"] = Job(plot.spectrum, (spectrum,), caption, {"sea": sea})
     return jobs
+
+
+def drift_figure(drift: "xr.Dataset") -> dict[str, Job]:
+    """Return the mean drift that slow drift is made from."""
+    if "mean_drift" not in drift:
+        return {}
+    speed = float(drift.attrs.get("speed", 0.0))
+    caption = "Mean drift force per square metre of wave amplitude"
+    caption += f" at {speed / knot:.3g} knots: in surge, its sign changed, the added resistance." if speed else "."
+    return {"drift": Job(plot.drift, (drift[["mean_drift"]],), caption)}
 
 
 def run_figures(

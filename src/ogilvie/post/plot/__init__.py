@@ -1,5 +1,6 @@
 """Figures: each function returns a matplotlib ``Figure``, with units on every axis (degrees for angles), and takes ``save``."""
 
+from ogilvie.post.plot._drift import drift
 from ogilvie.post.plot._hull import hull
 from ogilvie.post.plot._mooring import mooring
 from ogilvie.post.plot._motions import motions, response_spectra
@@ -14,6 +15,7 @@ __all__ = [
     "coefficients",
     "controls",
     "custom",
+    "drift",
     "excitation",
     "hull",
     "mooring",
