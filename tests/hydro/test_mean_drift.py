@@ -372,6 +372,7 @@ def test_several_waterlines_leave_vertical_components_to_the_near_field():
     ("change", "words"),
     [
         ({"speed": np.inf}, "mean_drift: speed: a finite number"),
+        ({"speed": 600.0}, r"mean_drift: speed: up to 4\.\d+ m/s \(Froude number 1\) expected, 600 m/s found"),
         ({"method": "magic"}, "method: one of auto"),
         ({"rotation": "YXZ"}, "rotation"),
         ({"moments": "ship"}, "moments"),

@@ -56,6 +56,12 @@ def checked_case(
         )
     except InputError as e:
         raise InputError(str(e).replace("solve_bem", purpose)) from None
+    fastest = float(np.sqrt(g * hull.length))
+    if abs(case.speed) > fastest:
+        raise InputError(
+            f"{purpose}: speed: up to {fastest:.4g} m/s (Froude number 1) expected, {case.speed:.4g} m/s found: a ship that "
+            "planes is beyond this theory. Is the speed in m/s?"
+        )
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         warn_if_coarse(case)
