@@ -193,10 +193,10 @@ def test_interrupted_run_goes_on_where_it_stopped(solved, monkeypatch):
     original = solver.force_vectors
     count = iter(range(100))
 
-    def interrupted(panels, influence):
+    def interrupted(panels, influence, *, K):
         if next(count) == 3:
             raise KeyboardInterrupt
-        return original(panels, influence)
+        return original(panels, influence, K=K)
 
     monkeypatch.setattr(solver, "force_vectors", interrupted)
     with pytest.raises(KeyboardInterrupt):

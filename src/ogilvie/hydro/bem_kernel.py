@@ -9,6 +9,20 @@ alone. Radiation is v = n_j, diffraction v = -d phi_0/d n for any direction of t
 two are consistent to rounding, and six right sides serve all directions and all speeds.
 
 With planes of symmetry the equations fall apart into one for each combination of parities, of a half or a quarter of the size.
+
+Inside the hull the same integrals make a potential w = D phi - S v that has to vanish. The hull alone asks for w = 0 on its
+own panels, which leaves out the water that sloshes inside at the irregular frequencies. A lid on z = 0 with unknowns mu ends
+it. A dipole there is K times a source, since G_z = K G, so the column of D that belongs to mu is -K S:
+
+    w = D phi - K S mu - S v,   w_z - K w = K mu;   mu = -tau w on the lid makes   w_z = (1 - tau) K w.
+
+Exactly, w = mu = 0 for any tau that leaves no other solution. On panels w is as large as their error, and tau decides what
+becomes of it: 0 is no lid, 1 a rigid one, which stops the whole free surface inside. With 1 - tau = 0.4 (1 + i) the inner
+surface loses energy (exp(-i omega t)), so that no frequency is irregular,
+
+    integral of |grad w|^2 dV = 0.4 (1 + i) K integral of |w|^2 dS   only if both are zero,
+
+and mu is smaller than on a rigid lid.
 """
 
 from collections.abc import Callable
@@ -26,29 +40,30 @@ Complex = NDArray[np.complex128]
 #: on the stored panels; the free term is in D of the first copy.
 Influence = Callable[[Array], tuple[Complex, Complex]]
 
+#: tau of the lid; the sign of its imaginary part belongs to exp(-i omega t).
+_LID = 0.6 - 0.4j
 
-def force_vectors(panels: HullPanels, influence: Influence) -> Complex:
+
+def force_vectors(panels: HullPanels, influence: Influence, *, K: float) -> Complex:
     """Return g: integral of n_i phi dS = sum over copies c and panels p of dof_signs[c, i] g[i, p] v[c, p].
 
     Parameters
     ----------
     panels : HullPanels
     influence : callable
-        See :data:`Influence`.
+        See :data:`Influence`; in the convention exp(-i omega t).
+    K : float
+        omega^2/g, 1/m; of no account without a lid.
 
     Returns
     -------
     (6, n_hull) complex array
-        m3 (translations) or m4 (rotations) per unit of normal velocity, in the time convention of `influence`.
+        m3 (translations) or m4 (rotations) per unit of normal velocity, for exp(-i omega t).
 
     Raises
     ------
     ConvergenceError
         The influence matrices hold NaN.
-
-    Notes
-    -----
-    The lid carries an unknown potential and no velocity.
     """
     from scipy.linalg import lu_factor, lu_solve
 
@@ -58,10 +73,20 @@ def force_vectors(panels: HullPanels, influence: Influence) -> Complex:
     sums = _sums_over_copies(panels.images, signs, influence)
     g = np.empty((6, panels.n_hull), dtype=complex)
     for i, S, D in zip(dofs, *sums, strict=True):
+        tie_lid(S, D, n_hull=panels.n_hull, K=K)
         lu = lu_factor(D, overwrite_a=True, check_finite=False)
         y = lu_solve(lu, loads[i].T.astype(complex), trans=1, check_finite=False)
         g[i] = (S.T @ y)[: panels.n_hull].T
     return g
+
+
+def tie_lid(S: Complex, D: Complex, *, n_hull: int, K: float) -> None:
+    """Replace the equations (n, n) of the panels after the first n_hull, those of the lid, by mu + tau w = 0, in place."""
+    lid = slice(n_hull, len(D))
+    D[:, lid] = -K * S[:, lid]
+    D[lid] *= _LID
+    S[lid] *= _LID
+    D[np.arange(n_hull, len(D)), np.arange(n_hull, len(D))] += 1.0
 
 
 def _parities(dof_signs: Array) -> tuple[Array, list[NDArray[np.int64]]]:

@@ -41,7 +41,7 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 #: Raised whenever the same problem would give other numbers than before: cached results of other revisions are not used.
-REVISION = 1
+REVISION = 2
 
 #: Linear algebra with up to so many unknowns is faster on one thread.
 SMALL = 800
@@ -114,8 +114,10 @@ def solve_bem(
 
     Notes
     -----
-    Direct method: the potential on flat panels with one unknown each, second order in the panel size. Interior panels on z = 0
-    with the same equations remove the irregular frequencies.
+    Direct method: the potential on flat panels with one unknown each, second order in the panel size. Panels on z = 0 inside
+    the hull, where the inner flow loses energy (:mod:`ogilvie.hydro.bem_kernel`), remove the irregular frequencies: up to
+    omega^2/g = 10 rad/m heave damping of a box 4 x 1 x 0.5 m of 1000 panels is within 0.4 % of its largest value of the energy
+    in the waves. Capytaine's table of the Green function is replaced near z = 0 (:mod:`ogilvie.hydro.bem_table`).
 
     Forward speed: the Green function of zero speed at the frequency of encounter, uniform flow past the hull and Tuck's theorem
     (:mod:`ogilvie.hydro.bem_forces`), as in the strip theory of Salvesen, Tuck and Faltinsen but in three dimensions. Good for
@@ -161,11 +163,12 @@ def _solutions(case: Case, *, store: SolutionStore | None, progress: bool | None
     found = {k: g for k, g in kept.items() if g is not None}
     missing = [k for k in case.wavenumbers if k not in found]
     if missing:
-        green = _green_function()
+        green = surface_green_function()
         with frequency_threads(case, workers or available_cores()):
             for k in tracked(missing, show=progress, title=f"solving {case.panels.hull.name}"):
                 panels = case.panels_at(k)
-                found[k] = force_vectors(panels, partial(_influence, green, panels.facets, k, case.depth)).conj()
+                influence = partial(_influence, green, panels.facets, k, case.depth)
+                found[k] = force_vectors(panels, influence, K=case.deep_wavenumber(k)).conj()
                 if store:
                     store.save(k, found[k])
     if store:
@@ -203,7 +206,7 @@ def _influence(green: Any, facets: Facets, k: float, depth: float, mirror: Array
 
 
 def surface_green_function() -> Any:
-    """Return the Green function with a table that is exact near the free surface, for points on it and sources on lids."""
+    """Return the Green function with a table that is exact near the free surface, which points and lids on it need."""
     green = _green_function()
     z = np.asarray(green.tabulated_z_range)
     near = np.flatnonzero(z >= -1.0)
