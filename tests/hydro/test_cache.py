@@ -142,10 +142,10 @@ def solved(tmp_path, monkeypatch):
     calls = []
     original = solver._influence
 
-    def counted(green, facets, k, depth, mirror):
+    def counted(green, panels, k, depth, mirror):
         if np.all(mirror > 0.0):
             calls.append(k)
-        return original(green, facets, k, depth, mirror)
+        return original(green, panels, k, depth, mirror)
 
     monkeypatch.setattr(bem_store, "cache_folder", lambda: tmp_path)
     monkeypatch.setattr(solver, "_influence", counted)

@@ -16,13 +16,13 @@ it. A dipole there is K times a source, since G_z = K G, so the column of D that
 
     w = D phi - K S mu - S v,   w_z - K w = K mu;   mu = -tau w on the lid makes   w_z = (1 - tau) K w.
 
-Exactly, w = mu = 0 for any tau that leaves no other solution. On panels w is as large as their error, and tau decides what
-becomes of it: 0 is no lid, 1 a rigid one, which stops the whole free surface inside. With 1 - tau = 0.4 (1 + i) the inner
-surface loses energy (exp(-i omega t)), so that no frequency is irregular,
+For tau >= 1, integral of |grad w|^2 dV + (tau - 1) K integral of w^2 dS = 0: no frequency is irregular, and w = mu = 0. tau = 1
+is a rigid lid. On panels it becomes singular where they no longer resolve the waves, and
 
-    integral of |grad w|^2 dV = 0.4 (1 + i) K integral of |w|^2 dS   only if both are zero,
+    tau = 1 + K^2 a/2   (a the area of the lid's panel)
 
-and mu is smaller than on a rigid lid.
+keeps the equations regular there, with as little influence as the error of the panels has elsewhere. All this is real, so w
+does not mix the phases of the potential: where a body makes no waves its damping stays zero.
 """
 
 from collections.abc import Callable
@@ -40,9 +40,6 @@ Complex = NDArray[np.complex128]
 #: on the stored panels; the free term is in D of the first copy.
 Influence = Callable[[Array], tuple[Complex, Complex]]
 
-#: tau of the lid; the sign of its imaginary part belongs to exp(-i omega t).
-_LID = 0.6 - 0.4j
-
 
 def force_vectors(panels: HullPanels, influence: Influence, *, K: float) -> Complex:
     """Return g: integral of n_i phi dS = sum over copies c and panels p of dof_signs[c, i] g[i, p] v[c, p].
@@ -51,14 +48,14 @@ def force_vectors(panels: HullPanels, influence: Influence, *, K: float) -> Comp
     ----------
     panels : HullPanels
     influence : callable
-        See :data:`Influence`; in the convention exp(-i omega t).
+        See :data:`Influence`; on the lid at the points of :attr:`HullPanels.points`.
     K : float
         omega^2/g, 1/m; of no account without a lid.
 
     Returns
     -------
     (6, n_hull) complex array
-        m3 (translations) or m4 (rotations) per unit of normal velocity, for exp(-i omega t).
+        m3 (translations) or m4 (rotations) per unit of normal velocity, in the time convention of `influence`.
 
     Raises
     ------
@@ -73,20 +70,21 @@ def force_vectors(panels: HullPanels, influence: Influence, *, K: float) -> Comp
     sums = _sums_over_copies(panels.images, signs, influence)
     g = np.empty((6, panels.n_hull), dtype=complex)
     for i, S, D in zip(dofs, *sums, strict=True):
-        tie_lid(S, D, n_hull=panels.n_hull, K=K)
+        tie_lid(S, D, K=K, areas=panels.facets.areas[panels.n_hull :])
         lu = lu_factor(D, overwrite_a=True, check_finite=False)
         y = lu_solve(lu, loads[i].T.astype(complex), trans=1, check_finite=False)
         g[i] = (S.T @ y)[: panels.n_hull].T
     return g
 
 
-def tie_lid(S: Complex, D: Complex, *, n_hull: int, K: float) -> None:
-    """Replace the equations (n, n) of the panels after the first n_hull, those of the lid, by mu + tau w = 0, in place."""
-    lid = slice(n_hull, len(D))
+def tie_lid(S: Complex, D: Complex, *, K: float, areas: Array) -> None:
+    """Replace the last equations of (n, n) matrices, those of lid panels with areas (n_lid,), by mu + tau w = 0, in place."""
+    lid = np.arange(len(D) - len(areas), len(D))
+    tau = 1.0 + 0.5 * K**2 * areas[:, None]
     D[:, lid] = -K * S[:, lid]
-    D[lid] *= _LID
-    S[lid] *= _LID
-    D[np.arange(n_hull, len(D)), np.arange(n_hull, len(D))] += 1.0
+    D[lid] *= tau
+    S[lid] *= tau
+    D[lid, lid] += 1.0
 
 
 def _parities(dof_signs: Array) -> tuple[Array, list[NDArray[np.int64]]]:
