@@ -64,7 +64,7 @@ def test_a_lid_panels_influence_on_itself_is_the_mean_of_the_wave_part_over_a_di
 
 
 def test_lid_equations(green):
-    """mu + (1 + K^2 a/2) w = 0 on the lid and w = 0 on the hull, w = D phi - K S mu - S v."""
+    """mu + (1 + (K^2 a/4)^2) w = 0 on the lid and w = 0 on the hull, w = D phi - K S mu - S v."""
     panels, K = with_lid(hemisphere(1.0, panels=100)), 2.0
     S, D = even_matrices(green, panels, K)
     n, rng = panels.n_hull, np.random.default_rng(1)
@@ -74,7 +74,7 @@ def test_lid_equations(green):
     tie_lid(S, D, K=K, areas=panels.facets.areas[n:])
     left = D @ x - S @ v
     np.testing.assert_allclose(left[:n], inner[:n], rtol=1e-12)
-    np.testing.assert_allclose(left[n:], x[n:] + (1.0 + 0.5 * K**2 * panels.lid.areas) * inner[n:], rtol=1e-12)
+    np.testing.assert_allclose(left[n:], x[n:] + (1.0 + (K**2 * panels.lid.areas / 4.0) ** 2) * inner[n:], rtol=1e-12)
 
 
 @pytest.mark.parametrize(("depth", "hull"), [(np.inf, hemisphere(1.0, panels=300)), (1.3, cylinder(1.0, 0.5, panels=300))])

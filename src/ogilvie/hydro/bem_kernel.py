@@ -17,12 +17,12 @@ it. A dipole there is K times a source, since G_z = K G, so the column of D that
     w = D phi - K S mu - S v,   w_z - K w = K mu;   mu = -tau w on the lid makes   w_z = (1 - tau) K w.
 
 For tau >= 1, integral of |grad w|^2 dV + (tau - 1) K integral of w^2 dS = 0: no frequency is irregular, and w = mu = 0. tau = 1
-is a rigid lid. On panels it becomes singular where they no longer resolve the waves, and
+is a rigid lid. Its equations become singular again where the lid's panels do not resolve the waves; with
 
-    tau = 1 + K^2 a/2   (a the area of the lid's panel)
+    tau = 1 + (K^2 a/4)^2   (a the area of the panel)
 
-keeps the equations regular there, with as little influence as the error of the panels has elsewhere. All this is real, so w
-does not mix the phases of the potential: where a body makes no waves its damping stays zero.
+they stay regular there; where panels are a sixth of a wave length or less the lid is rigid but for 8 %. All this is real, so
+w does not mix the phases of the potential: where a body makes no waves its damping stays near zero.
 """
 
 from collections.abc import Callable
@@ -80,7 +80,7 @@ def force_vectors(panels: HullPanels, influence: Influence, *, K: float) -> Comp
 def tie_lid(S: Complex, D: Complex, *, K: float, areas: Array) -> None:
     """Replace the last equations of (n, n) matrices, those of lid panels with areas (n_lid,), by mu + tau w = 0, in place."""
     lid = np.arange(len(D) - len(areas), len(D))
-    tau = 1.0 + 0.5 * K**2 * areas[:, None]
+    tau = 1.0 + (0.25 * K**2 * areas[:, None]) ** 2
     D[:, lid] = -K * S[:, lid]
     D[lid] *= tau
     S[lid] *= tau

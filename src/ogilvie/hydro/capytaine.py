@@ -41,7 +41,7 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 #: Raised whenever the same problem would give other numbers than before: cached results of other revisions are not used.
-REVISION = 3
+REVISION = 4
 
 #: Linear algebra with up to so many unknowns is faster on one thread.
 SMALL = 800
