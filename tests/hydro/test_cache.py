@@ -142,10 +142,10 @@ def solved(tmp_path, monkeypatch):
     calls = []
     original = solver._influence
 
-    def counted(green, facets, k, depth, mirror):
+    def counted(green, panels, k, depth, mirror):
         if np.all(mirror > 0.0):
             calls.append(k)
-        return original(green, facets, k, depth, mirror)
+        return original(green, panels, k, depth, mirror)
 
     monkeypatch.setattr(bem_store, "cache_folder", lambda: tmp_path)
     monkeypatch.setattr(solver, "_influence", counted)
@@ -193,10 +193,10 @@ def test_interrupted_run_goes_on_where_it_stopped(solved, monkeypatch):
     original = solver.force_vectors
     count = iter(range(100))
 
-    def interrupted(panels, influence):
+    def interrupted(panels, influence, *, K):
         if next(count) == 3:
             raise KeyboardInterrupt
-        return original(panels, influence)
+        return original(panels, influence, K=K)
 
     monkeypatch.setattr(solver, "force_vectors", interrupted)
     with pytest.raises(KeyboardInterrupt):

@@ -99,7 +99,7 @@ def test_irregular_frequency_is_removed_by_the_lid_and_only_by_it(exact):
     damaged = np.abs(hemisphere_errors(exact, sweep, 8, 3, irregular_frequencies="keep"))[:, :2].max()
     cured = np.abs(hemisphere_errors(exact, sweep, 8, 3)).max()
     assert damaged > 0.1
-    assert cured < 0.015
+    assert cured < 0.012
 
 
 def test_lid_is_made_where_the_hull_brings_none(exact):
@@ -227,16 +227,14 @@ def test_symmetry_changes_nothing_but_the_cost(depth):
 def test_same_numbers_as_capytaines_own_solver():
     import capytaine as cpt
 
-    hull = ellipsoid(3, 1, axes=(2.0, 0.8, 0.7)).full()
-    meshes = [
-        cpt.Mesh(m.vertices, [list(dict.fromkeys(f)) for f in m.faces.tolist()], auto_clean=False) for m in (hull, hull.lid)
-    ]
-    body = cpt.FloatingBody(mesh=meshes[0], lid_mesh=meshes[1], dofs=cpt.rigid_body_dofs(rotation_center=(0.0, 0.0, 0.0)))
+    hull = ellipsoid(3, axes=(2.0, 0.8, 0.7), lid=False).full()
+    mesh = cpt.Mesh(hull.vertices, [list(dict.fromkeys(f)) for f in hull.faces.tolist()], auto_clean=False)
+    body = cpt.FloatingBody(mesh=mesh, dofs=cpt.rigid_body_dofs(rotation_center=(0.0, 0.0, 0.0)))
     solver = cpt.BEMSolver(method="direct", green_function=_green_function())
     w, b = 2.0, 0.6
     settings = {"body": body, "omega": w, "g": G, "rho": RHO}
     names = list(body.dofs)
-    hydro = solve_bem(hull, omega=[w], wave_direction=[b], **FAST)
+    hydro = solve_bem(hull, omega=[w], wave_direction=[b], irregular_frequencies="keep", **FAST)
     for j, dof in enumerate(names):
         result = solver.solve(cpt.RadiationProblem(radiating_dof=dof, **settings), _check_wavelength=False)
         for name in ("added_mass", "radiation_damping"):
@@ -261,7 +259,7 @@ def test_bottom_mounted_cylinder_of_maccamy_and_fuchs():
     green = _green_function()
     for k in (0.01, 0.1, 0.5, 1.0, 2.0):
         w = float(frequency(k, h, g=G))
-        g = force_vectors(panels, lambda mirror, k=k: _influence(green, panels.facets, k, h, mirror)).conj()
+        g = force_vectors(panels, lambda mirror, k=k: _influence(green, panels, k, h, mirror), K=w**2 / G).conj()
         force, v = incident(panels, omega=w, k=k, direction=np.array([0.0]), depth=h, rho=1.0, g=G)
         total = force[0, 0] + 1j * w * np.einsum("cp,c,p->", -v[0], panels.dof_signs[:, 0], g[0])
         assert abs(total) == pytest.approx(4.0 * G * np.tanh(k * h) / (k**2 * abs(h1vp(1, k))), rel=0.008)

@@ -9,12 +9,13 @@ import ogilvie as og
 TITLE = "Added mass, damping and wave force of a floating hemisphere"
 ABOUT = """The exact solution is the multipole expansion of A. Hulme, The wave forces acting on a floating hemisphere undergoing
 forced periodic oscillations, Journal of Fluid Mechanics 121 (1982) 443-463, evaluated to 1e-8. `solve_bem` with
-`shapes.hemisphere` and the lid that it makes by itself must be within 0.5 % of each curve's largest value for Ka from 0.05 to
-4, the irregular frequency of heave at Ka = 2.56 included."""
+`shapes.hemisphere` and the lid that it makes by itself must be within 0.4 % (wave force: 0.3 %) of each curve's largest value
+for Ka from 0.05 to 4, the irregular frequency of heave at Ka = 2.56 included."""
 NEEDS = ["reference/hemisphere_exact.csv"]
 
 G, PANELS = 9.81, 1000
 CURVES = ("A33", "B33", "A11", "B11")
+TOLERANCE = 0.4  # %
 SWEEP = np.arange(2.30, 2.801, 0.01)
 LIMITS = {"A33 at zero": 0.830951, "A11 at zero": 0.5, "A33 at infinity": 0.5, "A11 at infinity": 4.0 / np.pi - 1.0}
 
@@ -34,9 +35,10 @@ def run(shared: Any) -> tuple[list[dict], dict]:
     panels = f"{hydro.attrs['panels']} panels of the hull and {hydro.attrs['lid_panels']} of the lid"
     swept = (Ka >= SWEEP[0] - 1e-9) & (Ka <= SWEEP[-1] + 1e-9)
     checks = [
-        _error(f"{name}, Ka 0.05 to 4", error[:, i], 0.5, f"{len(Ka)} frequencies; {panels}") for i, name in enumerate(CURVES)
+        _error(f"{name}, Ka 0.05 to 4", error[:, i], TOLERANCE, f"{len(Ka)} frequencies; {panels}")
+        for i, name in enumerate(CURVES)
     ]
-    checks += [_error(f"{name}, Ka 2.3 to 2.8 by 0.01", error[swept, i], 0.5, "") for i, name in enumerate(CURVES)]
+    checks += [_error(f"{name}, Ka 2.3 to 2.8 by 0.01", error[swept, i], TOLERANCE, "") for i, name in enumerate(CURVES)]
     checks += _limits(hydro, volume) + _forces(hydro, table, Ka)
     return checks, {"Ka": Ka, "found": found, "exact": exact, "error": error}
 
@@ -48,7 +50,7 @@ def draw(data: dict, fig: Any) -> None:
         above.plot(data["Ka"], data["exact"][:, i], color=f"C{i}", lw=1)
         above.plot(data["Ka"], data["found"][:, i], ".", color=f"C{i}", ms=4, label=name)
         below.plot(data["Ka"], data["error"][:, i], color=f"C{i}", lw=1)
-    below.axhspan(-0.5, 0.5, color="0.9", zorder=0)
+    below.axhspan(-TOLERANCE, TOLERANCE, color="0.9", zorder=0)
     above.set_ylabel("A/(rho V), B/(rho V sqrt(g/a))")
     above.legend(ncols=4, frameon=False)
     below.set_xlabel("Ka")
@@ -97,6 +99,6 @@ def _forces(hydro: Any, table: np.ndarray, Ka: np.ndarray) -> list[dict]:
     X = np.abs(hydro.excitation_force.values[:, 0]) / (G * np.pi)
     wanted = {"X3": np.sqrt(4.0 * exact[:, 1] / (3.0 * np.pi * Ka)), "X1": np.sqrt(8.0 * exact[:, 3] / (3.0 * np.pi * Ka))}
     return [
-        _error(f"{name}, Ka 0.05 to 4", 100.0 * (X[:, i] - w) / w.max(), 0.5, "exact by Haskind's relation")
+        _error(f"{name}, Ka 0.05 to 4", 100.0 * (X[:, i] - w) / w.max(), 0.3, "exact by Haskind's relation")
         for (name, w), i in zip(wanted.items(), (2, 0), strict=True)
     ]

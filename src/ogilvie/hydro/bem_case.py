@@ -75,6 +75,10 @@ class Case:
             k.add(0.0)
         return sorted(k)
 
+    def deep_wavenumber(self, k: float) -> float:
+        """Return K = omega^2/g = k tanh kh, rad/m."""
+        return k if np.isinf(self.depth) else float(k * np.tanh(k * self.depth))
+
     def panels_at(self, k: float) -> HullPanels:
         """Return the panels to solve with: no lid at zero and infinite wavenumber, where no frequency is irregular."""
         return self.panels.without_lid if k in (0.0, np.inf) else self.panels

@@ -15,6 +15,9 @@ Array = NDArray[np.float64]
 _PARITY = {"xz": (1, -1, 1, -1, 1, -1), "yz": (-1, 1, 1, 1, -1, -1)}
 _MIRROR = {"xz": (1, -1, 1), "yz": (-1, 1, 1)}
 
+#: Depth of the points on lid panels over the root of their areas: exp(-1/2)/(2 sqrt(pi)).
+_LID_DEPTH = 0.5 * np.exp(-0.5) / np.sqrt(np.pi)
+
 #: Parameters s, t in [-1, 1] of the four Gauss points of a bilinear panel.
 _GAUSS = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) / np.sqrt(3.0)
 
@@ -85,6 +88,17 @@ class HullPanels:
             np.concatenate([p.faces + i for p, i in zip(parts, first, strict=True)]),
             *(np.concatenate([getattr(p, key) for p in parts]) for key in ("centers", "normals", "areas", "radii")),
         )
+
+    @cached_property
+    def points(self) -> Array:
+        """Where the equations hold (n, 3): the middle of each hull panel, and below that of each lid panel, m.
+
+        The wave part of the Green function, -2 K log(K r/2) for short distances r on z = 0, is -2 K log(K d) at the depth d
+        under a source there. d = exp(-1/2)/2 sqrt(a/pi) makes that the mean over a disc of the panel's area a.
+        """
+        points = np.array(self.facets.centers)
+        points[self.n_hull :, 2] -= _LID_DEPTH * np.sqrt(self.facets.areas[self.n_hull :])
+        return points
 
     @cached_property
     def images(self) -> Array:

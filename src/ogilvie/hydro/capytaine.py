@@ -26,7 +26,7 @@ from ogilvie.errors import ConvergenceError, InputError, OgilvieError, OgilvieWa
 from ogilvie.hydro.bem_case import Case, Irregular, make_case, warn_if_coarse
 from ogilvie.hydro.bem_depth import exponentials
 from ogilvie.hydro.bem_kernel import force_vectors
-from ogilvie.hydro.bem_panels import Facets
+from ogilvie.hydro.bem_panels import Facets, HullPanels
 from ogilvie.hydro.bem_result import assemble
 from ogilvie.hydro.bem_store import SolutionStore
 from ogilvie.hydro.bem_table import near_surface
@@ -42,7 +42,7 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 #: Raised whenever the same problem would give other numbers than before: cached results of other revisions are not used.
-REVISION = 1
+REVISION = 4
 
 #: Linear algebra with up to so many unknowns is faster on one thread.
 SMALL = 800
@@ -115,8 +115,9 @@ def solve_bem(
 
     Notes
     -----
-    Direct method: the potential on flat panels with one unknown each, second order in the panel size. Interior panels on z = 0
-    with the same equations remove the irregular frequencies.
+    Direct method: the potential on flat panels with one unknown each, second order in the panel size. Panels on z = 0 inside
+    the hull, with equations of their own (:mod:`ogilvie.hydro.bem_kernel`), remove the irregular frequencies: heave damping of
+    a box 4 x 1 x 0.5 m of 1000 panels is within 0.2 % of its largest value of the energy in the waves up to K = 10 rad/m.
 
     Forward speed: the Green function of zero speed at the frequency of encounter, uniform flow past the hull and Tuck's theorem
     (:mod:`ogilvie.hydro.bem_forces`), as in the strip theory of Salvesen, Tuck and Faltinsen but in three dimensions. Good for
@@ -166,7 +167,8 @@ def _solutions(case: Case, *, store: SolutionStore | None, progress: bool | None
         with frequency_threads(case, workers or available_cores()):
             for k in tracked(missing, show=progress, title=f"solving {case.panels.hull.name}"):
                 panels = case.panels_at(k)
-                found[k] = force_vectors(panels, partial(_influence, green, panels.facets, k, case.depth)).conj()
+                influence = partial(_influence, green, panels, k, case.depth)
+                found[k] = force_vectors(panels, influence, K=case.deep_wavenumber(k)).conj()
                 if store:
                     store.save(k, found[k])
     if store:
@@ -182,15 +184,19 @@ def frequency_threads(case: Case, workers: int) -> AbstractContextManager[None]:
     )
 
 
-def _influence(green: Any, facets: Facets, k: float, depth: float, mirror: Array) -> tuple[Complex, Complex]:
-    """Return S and D at the mirrored centres due to the stored panels, in Capytaine's convention exp(-i omega t)."""
+def _influence(green: Any, panels: HullPanels, k: float, depth: float, mirror: Array) -> tuple[Complex, Complex]:
+    """Return S and D at the mirrored points due to the stored panels, in Capytaine's convention exp(-i omega t).
+
+    Capytaine 3.0 gives the imaginary part of the influence of a panel on z = 0 on its own middle the wrong sign; the points of
+    the lid lie below.
+    """
     from capytaine.green_functions.abstract_green_function import GreenFunctionEvaluationError
 
-    receivers = SimpleNamespace(faces_centers=facets.centers * mirror, nb_faces=len(facets.faces))
+    receivers = SimpleNamespace(faces_centers=panels.points * mirror, nb_faces=len(panels.facets.faces))
     try:
         return green.evaluate(
             receivers,
-            _sources(facets),
+            _sources(panels.facets),
             wavenumber=k,
             water_depth=depth,
             adjoint_double_layer=False,
