@@ -24,7 +24,7 @@ SIZE = (4.0, 1.0, 0.5)
 UNITS = {"rho": 1.0, "g": 1.0}
 DOFS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 PANELS = (500, 1000, 2900)  # at most, of the flat panels
-OMEGA = np.concatenate([np.arange(0.08, 1.61, 0.08), np.arange(1.76, 3.21, 0.16), np.arange(3.4, 5.01, 0.4)])
+OMEGA = np.concatenate([np.arange(0.08, 1.61, 0.08), np.arange(1.76, 3.21, 0.16), np.arange(3.4, 4.61, 0.4)])
 DURATION, DT = 30.0, 0.1
 #: Allowed differences: own K and A at resolution 1 from 1.5, K of the finest flat panels, K and A of the straight line, %.
 SELF = {"surge": 0.4, "sway": 0.3, "heave": 0.1, "roll": 0.2, "pitch": 0.2, "yaw": 0.4}

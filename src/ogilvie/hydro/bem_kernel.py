@@ -77,14 +77,21 @@ def force_vectors(panels: HullPanels, influence: Influence, *, K: float) -> Comp
     return g
 
 
-def tie_lid(S: Complex, D: Complex, *, K: float, areas: Array) -> None:
-    """Replace the last equations of (n, n) matrices, those of lid panels with areas (n_lid,), by mu + tau w = 0, in place."""
+def tie_lid(S: Complex, D: Complex, *, K: float, areas: Array) -> Array:
+    """Replace the last equations of (n, n) matrices, those of lid panels with areas (n_lid,), by mu + tau w = 0, in place.
+
+    Returns
+    -------
+    (n,) array
+        What the equations have been multiplied with: 1 on the hull, tau on the lid.
+    """
     lid = np.arange(len(D) - len(areas), len(D))
-    tau = 1.0 + (0.25 * K**2 * areas[:, None]) ** 2
+    factor = np.concatenate([np.ones(len(D) - len(areas)), 1.0 + (0.25 * K**2 * areas) ** 2])
     D[:, lid] = -K * S[:, lid]
-    D[lid] *= tau
-    S[lid] *= tau
+    D[lid] *= factor[lid, None]
+    S[lid] *= factor[lid, None]
     D[lid, lid] += 1.0
+    return factor
 
 
 def _parities(dof_signs: Array) -> tuple[Array, list[NDArray[np.int64]]]:

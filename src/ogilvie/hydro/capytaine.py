@@ -246,12 +246,12 @@ def source_influence(green: Any, facets: Facets, k: float, depth: float) -> Sour
     return influence
 
 
-def dipole_influence(green: Any, facets: Facets, k: float, depth: float) -> Dipoles:
+def dipole_influence(green: Any, panels: HullPanels, k: float, depth: float) -> Dipoles:
     """Return the influence of sources and dipoles on all panels, in the convention exp(+i omega t)."""
 
     def influence(mirror: Array) -> tuple[Complex, Complex]:
-        S, D = _influence(green, facets, k, depth, mirror)
-        return S.conj(), D.conj()
+        S, D = _influence(green, panels, k, depth, mirror)
+        return np.conjugate(S, out=S), np.conjugate(D, out=D)
 
     return influence
 

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ogilvie.errors import ConvergenceError
+from ogilvie.hydro.bem_kernel import tie_lid
 from ogilvie.hydro.bem_panels import HullPanels
 from ogilvie.hydro.drift_solve import Corrections, Fields, Sources, incident_wave, normal_velocities, parities, solve_sources
 
@@ -43,7 +44,7 @@ def solve_centres(
     sources, dipoles : callable
         See :data:`ogilvie.hydro.drift_solve.Sources` and :data:`Dipoles`.
     damping : (n_lid,) array
-        Of the lid under the sources; the potential's lid is rigid.
+        Of the lid under the sources; the potential has a lid of :mod:`ogilvie.hydro.bem_kernel`.
     k, K : float
         Wavenumber, rad/m, and omega^2/g, 1/m.
     directions : (n_b,) array
@@ -59,8 +60,9 @@ def solve_centres(
     Notes
     -----
     The second equation is that of the scattered wave, (1/2 + D) phi_D = -S d phi_I/dn, and Green's theorem for phi_I inside the
-    hull, (1/2 - D) phi_I = -S d phi_I/dn, together; with panels the two differ by O(h). On a lid the theorem reads
-    phi_I = D phi_I - S d phi_I/dn, so the right side is phi_I there too.
+    hull, (1/2 - D) phi_I = -S d phi_I/dn, together; with panels the two differ by O(h). At the points of a lid, which lie
+    inside, the theorem reads phi_I = D phi_I - S d phi_I/dn, so the right side of :mod:`ogilvie.hydro.bem_kernel`'s
+    mu + tau w = 0 is tau phi_I there.
     """
     flat = Corrections(np.zeros(panels.n_hull), damping)
     found = solve_sources(panels, sources, corrections=flat, k=k, K=K, directions=directions, depth=depth)
@@ -76,14 +78,15 @@ def solve_centres(
     n_hull, potential = panels.n_hull, np.zeros_like(found.potential)
     for s, signs in enumerate(table):
         S, D = (sum(sign * pair[i] for sign, pair in zip(signs, copies, strict=True)) for i in (0, 1))
-        right = np.concatenate([S[:, :n_hull] @ radiated[:, s].T, whole[:, s].T], axis=1)
+        factor = tie_lid(S, D, K=K, areas=panels.facets.areas[n_hull:])
+        right = np.concatenate([S[:, :n_hull] @ radiated[:, s].T, factor[:, None] * whole[:, s].T], axis=1)
         potential[:, s] = np.linalg.solve(D, right)[:n_hull].T
     potential[6:] -= whole[:, :, :n_hull]
     return replace(found, potential=potential)
 
 
 def _incident(panels: HullPanels, table: Array, *, k: float, directions: Array, depth: float) -> Complex:
-    """Return the incident waves (n_b, n_par, n_s) at the centres of hull and lid by parity."""
-    x = panels.facets.centers
+    """Return the incident waves (n_b, n_par, n_s) at the points of hull and lid by parity."""
+    x = panels.points
     at = np.stack([incident_wave(x * image, k=k, directions=directions, depth=depth)[0] for image in panels.images], axis=1)
     return np.einsum("sc,bcp->bsp", table, at) / len(panels.images)

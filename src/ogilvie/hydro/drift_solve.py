@@ -107,7 +107,7 @@ def solve_sources(
     n_hull, n_all = panels.n_hull, panels.n_hull + panels.n_lid
     table = parities(panels)
     velocity = normal_velocities(panels, table, k=k, directions=directions, depth=depth)
-    copies = [sources(panels.facets.centers, image) for image in panels.images]
+    copies = [sources(panels.points, image) for image in panels.images]
     if not all(np.all(np.isfinite(S)) and np.all(np.isfinite(G)) for S, G in copies):
         raise ConvergenceError(
             "second-order forces: the influence matrices hold NaN or infinite numbers. Panels may overlap or have no area; "

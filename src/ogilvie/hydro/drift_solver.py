@@ -27,7 +27,7 @@ from ogilvie.hydro.drift_wave import Dynamics, Wave
 Complex = NDArray[np.complex128]
 
 #: Raised whenever the same problem would give other fields than before.
-REVISION = 2
+REVISION = 3
 
 
 class Solver:
@@ -80,7 +80,7 @@ class Solver:
             panels, b = self._case.panels, np.array([wave.directions[i - 1] for i in missing if i > 0])
             sources = source_influence(green, panels.facets, wave.k_e, wave.depth)
             if centres:
-                dipoles = dipole_influence(green, panels.facets, wave.k_e, wave.depth)
+                dipoles = dipole_influence(green, panels, wave.k_e, wave.depth)
                 solve = partial(solve_centres, panels, sources, dipoles, damping=corrections.damping)
             else:
                 solve = partial(solve_sources, panels, sources, corrections=corrections)
