@@ -266,9 +266,13 @@ def test_identify_saves_what_it_prints_and_draws(coefficients, tmp_path):
     assert sorted(os.listdir(tmp_path / "f")) == ["coefficients.png", "retardation.png"]
 
 
-@pytest.mark.parametrize(("kind", "names"), [("coefficients", {"coefficients"}), ("mesh", {"hull"})])
+@pytest.mark.parametrize(("kind", "names"), [("coefficients", {"coefficients"}), ("mesh", {"hull"}), ("drift", {"drift"})])
 def test_plot_draws_what_a_file_holds(kind, names, coefficients, box_gdf, tmp_path):
-    source = {"coefficients": coefficients, "mesh": box_gdf}[kind]
+    from ogilvie.app.files import write_result
+
+    short = og.short_wave_drift(og.shapes.box(40.0, 12.0, 4.0, panels=60), omega=[1.0, 1.5, 2.0], speed=3.0)
+    drift = write_result(short, tmp_path / "drift.nc")
+    source = {"coefficients": coefficients, "mesh": box_gdf, "drift": drift}[kind]
     code, _, _ = call("plot", source, "-o", tmp_path / "f", "--format", "svg")
     assert code == 0
     assert {p.stem for p in Path(tmp_path / "f").glob("*.svg")} == names

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ogilvie.app.console import say, step, warn
-from ogilvie.app.files import collected_warnings, kind_of, read_memory, read_result, write_memory, write_result
+from ogilvie.app.files import collected_warnings, kind_of, read_memory, read_result, read_set, write_memory, write_result
 from ogilvie.atomic import check_place
 from ogilvie.errors import InputError
 from ogilvie.units import deg, knot
@@ -268,6 +268,10 @@ def plot_command(source: Path, *, output: Path, format: str, window: tuple[float
             made["coefficients"] = plot.coefficients(hydro)
             if "excitation_force" in hydro:
                 made["excitation"] = plot.excitation(hydro)
+            if "mean_drift" in hydro:
+                made["drift"] = plot.drift(hydro)
+        elif kind == "drift":
+            made["drift"] = plot.drift(read_set(source))
         elif kind == "memory":
             made["retardation"] = plot.retardation(*read_memory(source))
         elif kind == "result":
@@ -279,7 +283,9 @@ def plot_command(source: Path, *, output: Path, format: str, window: tuple[float
             if run.sizes["time"] >= 600:
                 made["response_spectra"] = plot.response_spectra(run)
         else:
-            raise InputError(f"{source.name}: a mesh, coefficients, memory.npz or result.nc expected, a {kind} found.")
+            raise InputError(
+                f"{source.name}: a mesh, coefficients, memory.npz, drift.nc or result.nc expected, a {kind} found."
+            )
     _tell(notes)
     output.mkdir(parents=True, exist_ok=True)
     for name, fig in made.items():

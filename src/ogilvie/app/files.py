@@ -43,20 +43,31 @@ def read_result(path: Path) -> "xr.Dataset":
     FormatError
         Another kind of file.
     """
+    run = read_set(path)
+    if "eta" not in run or "time" not in run.coords:
+        raise FormatError(f"{path.name}: the result of a simulation (eta over time) expected, not found. Give a result.nc.")
+    return run
+
+
+def read_set(path: Path) -> "xr.Dataset":
+    """Return a data set that :func:`write_result` wrote, whatever it holds.
+
+    Raises
+    ------
+    FormatError
+        No netCDF-4.
+    """
     import xarray as xr
 
     try:
         with xr.open_dataset(path, engine="h5netcdf") as stream:
-            run = stream.load()
+            return stream.load()
     except FileNotFoundError:
         raise
     except Exception as error:  # the libraries raise many kinds for a damaged file
         raise FormatError(
             f"{path.name}: a netCDF file expected, something else found ({type(error).__name__}). Write it again."
         ) from error
-    if "eta" not in run or "time" not in run.coords:
-        raise FormatError(f"{path.name}: the result of a simulation (eta over time) expected, not found. Give a result.nc.")
-    return run
 
 
 def write_memory(path: Path, K: "Retardation", ssm: "StateSpace | None" = None) -> Path:
@@ -124,7 +135,7 @@ def read_memory(path: Path) -> "tuple[Retardation, StateSpace | None]":
 
 
 def kind_of(path: Path) -> str:
-    """Return what a file is: case, mesh, memory, result or coefficients.
+    """Return what a file is: case, mesh, memory, result, drift or coefficients.
 
     Raises
     ------
@@ -144,19 +155,21 @@ def kind_of(path: Path) -> str:
         return "memory"
     if suffix in MESH_SUFFIXES or (suffix == ".dat" and path.is_file()):
         return "mesh"
-    if suffix in (".nc", ".nc4", ".cdf") and _holds_motions(path):
+    names = _variables(path) if suffix in (".nc", ".nc4", ".cdf") else set()
+    if {"eta", "time"} <= names:
         return "result"
-    return "coefficients"
+    return "drift" if "mean_drift" in names and "added_mass" not in names else "coefficients"
 
 
-def _holds_motions(path: Path) -> bool:
+def _variables(path: Path) -> set[str]:
+    """Return the names of what a netCDF-4 file holds; none of another kind of file, of which its reader says more."""
     import h5netcdf
 
     try:
         with h5netcdf.File(path, "r") as stream:
-            return "eta" in stream.variables and "time" in stream.variables
-    except OSError:  # netCDF-3 or no netCDF at all: the reader of coefficients says which
-        return False
+            return set(stream.variables)
+    except OSError:
+        return set()
 
 
 @contextmanager
