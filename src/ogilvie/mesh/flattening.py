@@ -6,18 +6,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ogilvie.errors import InputError
+from ogilvie.mesh.borders import between, border, corners_of, on_border
 from ogilvie.mesh.chine import Chine, find_chine
 from ogilvie.mesh.conforming import conforming
 from ogilvie.mesh.flat_ends import flat_end
 from ogilvie.mesh.panels import PanelMesh
-from ogilvie.mesh.topology import edges
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 _WELD = 1e-6  #: of the length, vertices nearer to each other are one; up to 100 times as much where gaps ask for it
 _KINK, _BROAD = np.deg2rad(40.0), 0.1  #: least turn of the waterline, and share of the half beam, that make a kink
-_REACH = 0.15  #: of the length that counts, at the ends of the keel, as much as the draught
 _FOOT = 0.15  #: of the profile up to which a chine that ends on it meets the keel there
 _TIP = 9  #: places of one vertex where bottom or keel ends in a point
 
@@ -99,19 +98,19 @@ def flattened(hull: PanelMesh) -> Flattened:
         ends = [flat_end(vertices, tri, end=k, near=10.0 * near) for k in (-1, 1)]
         tri = tri[~(ends[0][0] | ends[1][0])]
         try:
-            loop = _border(vertices, tri, 10.0 * near, [i for _, edge in ends for i in edge])
+            loop = border(vertices, tri, 10.0 * near, [i for _, edge in ends for i in edge])
             break
         except InputError as error:
             failure = error
     else:
         raise failure
-    corners = _corners(vertices, loop, 10.0 * near)
+    corners = corners_of(vertices, loop, 10.0 * near)
     for k, (_, edge) in enumerate(ends):
         if edge:
             corners[k], corners[2 + k] = loop.index(edge[-1]), loop.index(edge[0])
     is_flat = (bool(ends[0][1]), bool(ends[1][1]))
     chine, corners, tips = _with_chine(vertices, tri, loop, corners, is_flat)
-    uv, side = _on_border(vertices, loop, corners, chine)
+    uv, side = on_border(vertices, loop, corners, chine)
     _spread(vertices, tri, uv, side, chine, tips)
     used, index = np.unique(tri, return_inverse=True)
     flat = Flattened(vertices[used], uv[used], index.reshape(tri.shape), side[used], is_flat)
@@ -123,13 +122,13 @@ def _with_chine(
 ) -> tuple[Chine | None, list[int], tuple[bool, bool]]:
     """Return the chine, the corners and, for stern and bow, whether the bottom ends in a point (at a corner, then)."""
     stern, bow, low_stern, low_bow = corners
-    sides = [_between(loop, a, b, [c for c in corners if c not in (a, b)]) for a, b in ((low_stern, low_bow), (stern, bow))]
+    sides = [between(loop, a, b, [c for c in corners if c not in (a, b)]) for a, b in ((low_stern, low_bow), (stern, bow))]
     chine = find_chine(vertices, tri, keel=sides[0], waterline=sides[1], loop=loop)
     if chine is None:
         return None, corners, (False, False)
     corners, tips = list(corners), [False, False]
     for k, (i, top) in enumerate(((chine.line[0], stern), (chine.line[-1], bow))):
-        profile = _between(loop, corners[2 + k], top, [c for c in corners if c not in (corners[2 + k], top)])
+        profile = between(loop, corners[2 + k], top, [c for c in corners if c not in (corners[2 + k], top)])
         at = profile.index(i) / len(profile) if i in profile else 0.0
         tips[k] = not is_flat[k] and at < _FOOT
         if tips[k]:
@@ -198,80 +197,6 @@ def _kinks(flat: Flattened) -> tuple[int, ...]:
     angle = np.arctan2(turn, (step[:-1] * step[1:]).sum(axis=1))
     broad = flat.vertices[line[1:-1], 1] > _BROAD * flat.vertices[:, 1].max()
     return tuple(line[1:-1][(angle > _KINK) & broad].tolist())
-
-
-def _border(vertices: Array, tri: Ints, near: float, edges_of_ends: list[int]) -> list[int]:
-    """Return the vertices of the border, in order; all but those of flat ends lie in z = 0 or y = 0."""
-    start, end, _ = edges(tri)
-    directed = set(zip(start.tolist(), end.tolist(), strict=True))
-    after = {a: b for a, b in directed if (b, a) not in directed}
-    if len(after) < 4 or len(after) < sum((b, a) not in directed for a, b in directed):
-        raise InputError("flattened: one border that does not touch itself expected.")
-    loop = [min(after)]
-    while after[loop[-1]] != loop[0]:
-        loop.append(after[loop[-1]])
-        if len(loop) > len(after) or loop[-1] not in after:
-            raise InputError("flattened: a closed border expected.")
-    if len(loop) < len(after):
-        raise InputError(f"flattened: one border expected, more found ({len(after) - len(loop)} sides elsewhere).")
-    p = vertices[loop]
-    off = (np.abs(p[:, 1]) > near) & (np.abs(p[:, 2]) > near) & ~np.isin(loop, edges_of_ends)
-    if off.any():
-        at = p[off][0].round(6).tolist()
-        raise InputError(
-            f"flattened: a border in z = 0 and y = 0 expected, {int(off.sum())} vertices elsewhere, one at {at} m."
-        )
-    return loop
-
-
-def _corners(vertices: Array, loop: list[int], near: float) -> list[int]:
-    """Return the places in the loop of stern and bow on the waterline, and of both ends of the keel."""
-    p = vertices[loop]
-    wet_line = np.flatnonzero((np.abs(p[:, 2]) <= near) & (np.abs(p[:, 1]) <= near))
-    stern, bow = (wet_line[np.argmin(p[wet_line, 0])], wet_line[np.argmax(p[wet_line, 0])]) if len(wet_line) else (0, 0)
-    keel = np.flatnonzero((np.abs(p[:, 1]) <= near) & (p[:, 2] < -near))
-    if len(keel) < 2:
-        raise InputError("flattened: a keel on the centreline expected.")
-    score = p[keel, 2] / np.abs(p[:, 2]).max()
-    along = p[keel, 0] / (_REACH * np.ptp(p[:, 0]))
-    return [int(stern), int(bow), int(keel[np.argmin(along + score)]), int(keel[np.argmax(along - score)])]
-
-
-def _on_border(vertices: Array, loop: list[int], corners: list[int], chine: Chine | None) -> tuple[Array, Ints]:
-    """Return (u, v) of the vertices of border and chine, zeros elsewhere, and which side each vertex is on."""
-    stern, bow, low_stern, low_bow = corners
-    uv, side = np.zeros((len(vertices), 2)), np.full(len(vertices), -1)
-    ends = {0: (low_stern, stern), 1: (low_bow, bow), 2: (low_stern, low_bow), 3: (stern, bow)}
-    for k, (a, b) in ends.items():
-        chain = _between(loop, a, b, [c for c in corners if c not in (a, b)])
-        t = _along(vertices[chain])
-        if k < 2 and chine and chine.line[-k] in chain[:-1]:
-            at = t[chain.index(chine.line[-k])]
-            t = np.interp(t, [0.0, at, 1.0], [0.0, chine.share, 1.0]) if at > 0.0 else chine.share + (1.0 - chine.share) * t
-        uv[chain] = np.stack([np.full(len(t), float(k)), t] if k < 2 else [t, np.full(len(t), k - 2.0)], axis=-1)
-        side[chain] = k
-    if chine:
-        line, t = chine.line, _along(vertices[chine.line])
-        inner = slice(1, -1)
-        uv[line[inner]] = np.stack([t[inner], np.full(len(line) - 2, chine.share)], axis=1)
-        side[line] = np.where(np.isin(line, loop) & (side[line] == 2), 2, 4)
-    return uv, side
-
-
-def _along(points: Array) -> Array:
-    """Return the share of the length of a line (n, 3) up to each of its points."""
-    length = np.cumsum(np.r_[0.0, np.linalg.norm(np.diff(points, axis=0), axis=1)])
-    return np.asarray(length / length[-1])
-
-
-def _between(loop: list[int], a: int, b: int, others: list[int]) -> list[int]:
-    """Return the vertices of a loop from place a to place b, the way that does not pass the other corners."""
-    n = len(loop)
-    for step in (1, -1):
-        way = [(a + step * i) % n for i in range((step * (b - a)) % n + 1)]
-        if not set(way) & set(others):
-            return [loop[i] for i in way]
-    raise InputError("flattened: waterline and keel between stern and bow expected, the border runs differently.")
 
 
 def _harmonic(vertices: Array, tri: Ints, uv: Array, inner: Ints) -> Array:
