@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from ogilvie.bem import hull_surface
 from ogilvie.bem.fitted_hull import distances, fitted_panels
 from ogilvie.mesh import shapes
 from ogilvie.mesh.fitting import fitted
@@ -116,3 +117,13 @@ def test_an_edge_that_ends_half_way_is_none():
     bent = np.stack([x, y * (1.0 - 0.9 * forward * low), z * (1.0 - 0.3 * forward * np.abs(y) / 10.0)], axis=1)
     flat = flattened(PanelMesh(bent, hull.faces, symmetry="xz"))
     assert flat.chine == 0.0
+
+
+def test_a_chine_that_cannot_be_kept_is_rounded_off(monkeypatch):
+    hull = CHINED["box"]()
+    good = hull_surface._is_good
+    assert hull_surface._best_fit(hull, 6.0, 6).chine
+    monkeypatch.setattr(hull_surface, "_is_good", lambda fit, hull: not fit.chine and good(fit, hull))
+    rounded = hull_surface._best_fit(hull, 6.0, 6)
+    assert not rounded.chine
+    assert rounded.rms > 1e-3 * hull.beam

@@ -35,6 +35,8 @@ class FittedHull:
         Least relative size of x_u x x_v inside a panel; negative where it is folded.
     volume : float
         Displacement of both halves, m3.
+    chine : bool
+        Whether one was kept sharp.
     """
 
     panels: Array
@@ -42,9 +44,10 @@ class FittedHull:
     most: float
     jacobian: float
     volume: float
+    chine: bool
 
 
-def fitted_panels(hull: PanelMesh, *, size: float, q: int) -> FittedHull:
+def fitted_panels(hull: PanelMesh, *, size: float, q: int, chine: bool = True) -> FittedHull:
     """Return a smooth hull through the corners of a panelled one.
 
     Parameters
@@ -55,6 +58,8 @@ def fitted_panels(hull: PanelMesh, *, size: float, q: int) -> FittedHull:
         Length of a panel, m.
     q : int
         Points per side of a panel.
+    chine : bool
+        Keep a chine from end to end sharp.
 
     Raises
     ------
@@ -74,7 +79,7 @@ def fitted_panels(hull: PanelMesh, *, size: float, q: int) -> FittedHull:
     >>> fit.rms < 0.002 * 25.4, len(fit.panels)
     (True, 52)
     """
-    flat = flattened(hull)
+    flat = flattened(hull, chine=chine)
     sheet = fitted(flat)
     u, v = (places(t, q) for t in _divisions(sheet, size))
     grid = sheet.at(u.ravel(), v.ravel()).reshape(len(u), q, len(v), q, 3)
@@ -87,7 +92,9 @@ def fitted_panels(hull: PanelMesh, *, size: float, q: int) -> FittedHull:
     g, w = np.polynomial.legendre.leggauss(q + 2)
     x, normal = positions_and_normals(panels, g, g)
     volume = -2.0 * float(np.einsum("a,b,nab,nab->", w, w, x[..., 2], normal[..., 2]))
-    return FittedHull(panels, float(np.sqrt(np.mean(off**2))), float(off.max()), float(jacobians(normal).min()), volume)
+    return FittedHull(
+        panels, float(np.sqrt(np.mean(off**2))), float(off.max()), float(jacobians(normal).min()), volume, flat.chine > 0.0
+    )
 
 
 def _fan(edge: Array, size: float) -> Array:

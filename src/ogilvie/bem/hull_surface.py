@@ -80,12 +80,15 @@ def _on_surface(hull: PanelMesh) -> PanelMesh:
 
 
 def _best_fit(hull: PanelMesh, size: float, q: int) -> FittedHull:
-    """Return the first good fit with panels of about that size, else the one with the size itself."""
+    """Return the first good fit with panels of about that size, a chine kept or rounded off; else that of the size itself."""
     fits, corners = [], _on_surface(hull)
-    for factor in _SIZES:
-        fits.append(fitted_panels(corners, size=factor * size, q=q))
-        if _is_good(fits[-1], hull):
-            return fits[-1]
+    for chine in (True, False):
+        for factor in _SIZES:
+            fits.append(fitted_panels(corners, size=factor * size, q=q, chine=chine))
+            if _is_good(fits[-1], hull):
+                return fits[-1]
+        if not fits[0].chine:
+            break
     return fits[0]
 
 

@@ -59,13 +59,15 @@ class Flattened:
     tips: tuple[int, ...] = ()
 
 
-def flattened(hull: PanelMesh) -> Flattened:
+def flattened(hull: PanelMesh, *, chine: bool = True) -> Flattened:
     """Return a hull's stored half spread out on the unit square.
 
     Parameters
     ----------
     hull : PanelMesh
         Symmetry "xz", below z = 0.
+    chine : bool
+        Look for one.
 
     Raises
     ------
@@ -105,16 +107,18 @@ def flattened(hull: PanelMesh) -> Flattened:
     else:
         raise failure
     corners = corners_of(vertices, loop, 10.0 * near)
-    for k, (_, edge) in enumerate(ends):
-        if edge:
-            corners[k], corners[2 + k] = loop.index(edge[-1]), loop.index(edge[0])
+    for k, (_, rim) in enumerate(ends):
+        if rim:
+            corners[k], corners[2 + k] = loop.index(rim[-1]), loop.index(rim[0])
     is_flat = (bool(ends[0][1]), bool(ends[1][1]))
-    chine, corners, tips = _with_chine(vertices, tri, loop, corners, is_flat)
-    uv, side = on_border(vertices, loop, corners, chine)
-    _spread(vertices, tri, uv, side, chine, tips)
+    edge, tips = None, (False, False)
+    if chine:
+        edge, corners, tips = _with_chine(vertices, tri, loop, corners, is_flat)
+    uv, side = on_border(vertices, loop, corners, edge)
+    _spread(vertices, tri, uv, side, edge, tips)
     used, index = np.unique(tri, return_inverse=True)
     flat = Flattened(vertices[used], uv[used], index.reshape(tri.shape), side[used], is_flat)
-    return _finished(flat, chine.share if chine else 0.0, tips)
+    return _finished(flat, edge.share if edge else 0.0, tips)
 
 
 def _with_chine(
