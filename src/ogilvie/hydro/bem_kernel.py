@@ -30,8 +30,8 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from ogilvie.errors import ConvergenceError
 from ogilvie.hydro.bem_panels import HullPanels
+from ogilvie.hydro.bem_parity import by_parity, parities, require_finite
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -66,10 +66,13 @@ def force_vectors(panels: HullPanels, influence: Influence, *, K: float) -> Comp
 
     loads = np.zeros((6, panels.n_hull + panels.n_lid))
     loads[:, : panels.n_hull] = panels.modes * panels.hull.areas
-    signs, dofs = _parities(panels.dof_signs)
-    sums = _sums_over_copies(panels.images, signs, influence)
+    copies = [influence(mirror) for mirror in panels.images]
+    require_finite(copies, purpose="solve_bem")
     g = np.empty((6, panels.n_hull), dtype=complex)
-    for i, S, D in zip(dofs, *sums, strict=True):
+    for signs, (S, D) in zip(parities(panels), by_parity(copies), strict=True):
+        i = np.flatnonzero((panels.dof_signs == signs[:, None]).all(axis=0))
+        if len(i) == 0:
+            continue
         tie_lid(S, D, K=K, areas=panels.facets.areas[panels.n_hull :])
         lu = lu_factor(D, overwrite_a=True, check_finite=False)
         y = lu_solve(lu, loads[i].T.astype(complex), trans=1, check_finite=False)
@@ -92,30 +95,3 @@ def tie_lid(S: Complex, D: Complex, *, K: float, areas: Array) -> Array:
     S[lid] *= factor[lid, None]
     D[lid, lid] += 1.0
     return factor
-
-
-def _parities(dof_signs: Array) -> tuple[Array, list[NDArray[np.int64]]]:
-    """Return the distinct columns of (n_c, 6) signs as rows, and the dofs that have each."""
-    distinct, index = np.unique(dof_signs, axis=1, return_inverse=True)
-    return distinct.T, [np.flatnonzero(index.ravel() == k) for k in range(distinct.shape[1])]
-
-
-def _sums_over_copies(images: Array, parities: Array, influence: Influence) -> tuple[list[Complex], list[Complex]]:
-    """Return for each parity the sums over the copies of sign * S and of sign * D."""
-    S: list[Complex] = []
-    D: list[Complex] = []
-    for c, mirror in enumerate(images):
-        s, d = influence(mirror)
-        if not (np.all(np.isfinite(s)) and np.all(np.isfinite(d))):
-            raise ConvergenceError(
-                "solve_bem: the influence matrices hold NaN or infinite numbers. Panels may overlap or have no area; "
-                "look at the mesh with ogilvie.mesh.inspect.check_mesh."
-            )
-        if c == 0:
-            S, D = [s, *(s.copy() for _ in parities[1:])], [d, *(d.copy() for _ in parities[1:])]
-            continue
-        add = [np.add if sign > 0.0 else np.subtract for sign in parities[:, c]]
-        for k, operation in enumerate(add):
-            operation(S[k], s, out=S[k])
-            operation(D[k], d, out=D[k])
-    return S, D

@@ -13,10 +13,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ogilvie.errors import ConvergenceError
 from ogilvie.hydro.bem_kernel import tie_lid
 from ogilvie.hydro.bem_panels import HullPanels
-from ogilvie.hydro.drift_solve import Corrections, Fields, Sources, incident_wave, normal_velocities, parities, solve_sources
+from ogilvie.hydro.bem_parity import by_parity, parities, require_finite
+from ogilvie.hydro.drift_solve import Corrections, Fields, Sources, incident_wave, normal_velocities, solve_sources
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -68,16 +68,11 @@ def solve_centres(
     found = solve_sources(panels, sources, corrections=flat, k=k, K=K, directions=directions, depth=depth)
     table = parities(panels)
     copies = [dipoles(image) for image in panels.images]
-    if not all(np.all(np.isfinite(S)) and np.all(np.isfinite(D)) for S, D in copies):
-        raise ConvergenceError(
-            "second-order forces: the influence matrices hold NaN or infinite numbers. Panels may overlap or have no area; "
-            "look at the mesh with ogilvie.mesh.inspect.check_mesh."
-        )
+    require_finite(copies, purpose="second-order forces")
     radiated = normal_velocities(panels, table, k=k, directions=directions, depth=depth)[:6]
     whole = _incident(panels, table, k=k, directions=directions, depth=depth)
     n_hull, potential = panels.n_hull, np.zeros_like(found.potential)
-    for s, signs in enumerate(table):
-        S, D = (sum(sign * pair[i] for sign, pair in zip(signs, copies, strict=True)) for i in (0, 1))
+    for s, (S, D) in enumerate(by_parity(copies)):
         factor = tie_lid(S, D, K=K, areas=panels.facets.areas[n_hull:])
         right = np.concatenate([S[:, :n_hull] @ radiated[:, s].T, factor[:, None] * whole[:, s].T], axis=1)
         potential[:, s] = np.linalg.solve(D, right)[:n_hull].T

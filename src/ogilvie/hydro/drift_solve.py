@@ -20,8 +20,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ogilvie.errors import ConvergenceError
 from ogilvie.hydro.bem_panels import HullPanels
+from ogilvie.hydro.bem_parity import by_parity, parities, require_finite
 from ogilvie.hydro.bem_waves import profile
 
 Array = NDArray[np.float64]
@@ -34,7 +34,6 @@ Sources = Callable[[Array, Array], tuple[Complex, Complex]]
 
 #: Damping in the middle of the inner free surface: enough against its resonances, little enough to keep the sources smooth.
 _DAMPING = 0.3
-_CHUNK = 1 << 15  # numbers that are added at a time, within the cache
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,14 +70,6 @@ class Corrections:
     damping: Array
 
 
-def parities(panels: HullPanels) -> Array:
-    """Return the signs (n_par, n_c) of each combination of parities at each copy."""
-    table = np.ones((1, 1))
-    for _ in panels.hull.planes:
-        table = np.block([[table, table], [table, -table]])
-    return table
-
-
 def solve_sources(
     panels: HullPanels, sources: Sources, *, corrections: Corrections, k: float, K: float, directions: Array, depth: float
 ) -> Fields:
@@ -108,16 +99,12 @@ def solve_sources(
     table = parities(panels)
     velocity = normal_velocities(panels, table, k=k, directions=directions, depth=depth)
     copies = [sources(panels.points, image) for image in panels.images]
-    if not all(np.all(np.isfinite(S)) and np.all(np.isfinite(G)) for S, G in copies):
-        raise ConvergenceError(
-            "second-order forces: the influence matrices hold NaN or infinite numbers. Panels may overlap or have no area; "
-            "look at the mesh with ogilvie.mesh.inspect.check_mesh."
-        )
+    require_finite(copies, purpose="second-order forces")
     n_f, n_par = velocity.shape[:2]
     sigma = np.zeros((n_f, n_par, n_all), dtype=complex)
     phi, v = np.zeros((n_f, n_par, n_hull), dtype=complex), np.zeros((n_f, n_par, n_hull, 3), dtype=complex)
     normals = panels.hull.normals
-    for s, (S, G) in enumerate(by_parity(copies, panels.images)):
+    for s, (S, G) in enumerate(gathered(copies, panels.images)):
         used = np.flatnonzero(np.abs(velocity[:, s]).max(axis=1) > 0.0)
         if len(used) == 0:
             continue
@@ -147,37 +134,17 @@ def fields_at(panels: HullPanels, sources: Sources, strengths: Complex, points: 
     return Fields(strengths, phi, v)
 
 
-def by_parity(copies: list[tuple[Complex, Complex]], images: Array) -> list[tuple[Complex, Complex]]:
+def gathered(copies: list[tuple[Complex, Complex]], images: Array) -> list[tuple[Complex, Complex]]:
     """Return S and the gradient (3, ...) at the stored points due to all copies of the panels, for each parity.
 
-    Notes
-    -----
-    The influence at the mirror image of a point is that of the mirrored panel, its gradient mirrored. Sums and differences
-    take the place of the copies, which are lost: matrices of gigabytes are passed over once per plane.
+    The influence at the mirror image of a point is that of the mirrored panel, its gradient mirrored. Results take the place
+    of the copies, as in :func:`ogilvie.hydro.bem_parity.by_parity`.
     """
     for (_, G), image in zip(copies, images, strict=True):
         for i in np.flatnonzero(image < 0.0):
             np.negative(G[i], out=G[i])
-    step = 1
-    while step < len(copies):
-        for k in range(len(copies)):
-            if k & step == 0:
-                (S, G), (other_S, other_G) = copies[k], copies[k + step]
-                for a, b in zip((S, *G), (other_S, *other_G), strict=True):
-                    _sum_and_difference(a, b)
-        step *= 2
+    by_parity([(S, *G) for S, G in copies])
     return copies
-
-
-def _sum_and_difference(a: Complex, b: Complex) -> None:
-    """Put a + b and a - b of two matrices in their places, a few rows (or columns, as they lie in memory) at a time."""
-    if a.flags.f_contiguous:
-        a, b = a.T, b.T
-    rows = max(1, _CHUNK // max(1, a.shape[1]))
-    for i in range(0, len(a), rows):
-        difference = a[i : i + rows] - b[i : i + rows]
-        a[i : i + rows] += b[i : i + rows]
-        b[i : i + rows] = difference
 
 
 def expanded(values: Complex, panels: HullPanels, *, vector: bool = False) -> Complex:
