@@ -246,14 +246,14 @@ def test_short_waves_are_reflected_where_panels_end():
     options = {"omega": frequencies_of(case, sea), "wave_direction": np.array([np.pi]), "rho": 1025.0, "g": 9.80665}
     options |= {"progress": False, "cache": False}
     with pytest.warns(OgilvieWarning):
-        joined = added_resistance(case, hull, body, sea, **options)
+        joined = added_resistance(case, hull, body, **options)
     short = og.short_wave_drift(hull, omega=joined.omega.values[-1:], speed=case.speed, rho=1025.0, g=9.80665)
     assert float(joined.mean_drift[-1, 0, 0]) == pytest.approx(float(short.mean_drift[0, 0, 0]), rel=1e-6)
     assert joined.attrs["speed"] == pytest.approx(case.speed)
     assert og.SlowDrift(joined).dofs[:2] == ("surge", "sway")
     alone = parse_case(text.replace("[slow_drift]", "[slow_drift]\nshort_waves = false"))
     with pytest.warns(OgilvieWarning):
-        panels = added_resistance(alone, hull, body, sea, **options)
+        panels = added_resistance(alone, hull, body, **options)
     np.testing.assert_allclose(panels.omega, options["omega"])
     assert abs(float(panels.mean_drift[-1, 0, 0]) / float(short.mean_drift[0, 0, 0]) - 1.0) > 0.2
 

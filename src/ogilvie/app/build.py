@@ -190,32 +190,27 @@ def make_hydro(case: Case, hull: "PanelMesh | None", body: RigidBody | None, *, 
         from ogilvie.hydro.files import read_hydro
 
         return fitted_to_speed(case, _with_statics(read_hydro(case.path(c.file), ulen=c.scale), hull, body), hull)
+    asked: Any = {
+        "omega": frequencies(case, _need(hull)),
+        "wave_direction": directions(case, hull),
+        "rho": water.rho,
+        "g": water.g,
+        "progress": progress,
+    }
     if c.solver == "time-domain":
         from ogilvie.bem.hybrid_hydro import hybrid_hydro
 
-        return hybrid_hydro(
-            _need(hull),
-            body,
-            omega=frequencies(case, _need(hull)),
-            wave_direction=directions(case, hull),
-            rho=water.rho,
-            g=water.g,
-            progress=progress,
-        )
+        return hybrid_hydro(_need(hull), body, **asked)
     from ogilvie.hydro.capytaine import solve_bem
 
     return solve_bem(
         _need(hull),
         body,
-        omega=frequencies(case, _need(hull)),
-        wave_direction=directions(case, hull),
-        rho=water.rho,
-        g=water.g,
         water_depth=water.depth,
         speed=case.speed if c.forward_speed == "panels" else 0.0,
         irregular_frequencies="remove" if c.irregular_frequencies else "keep",
-        progress=progress,
         cache=c.cache,
+        **asked,
     )
 
 

@@ -89,7 +89,7 @@ def drift_data(
         if d.approximation == "full":
             found = difference_qtf(hull, body, second_order=d.second_order, **options)
         elif case.speed > 0.0:
-            found = added_resistance(case, hull, body, sea, **options)
+            found = added_resistance(case, hull, body, **options)
         else:
             found = mean_drift(hull, body, method=d.method, **options)
     for words in said:

@@ -14,7 +14,6 @@ if TYPE_CHECKING:
 
     from ogilvie.body import RigidBody
     from ogilvie.mesh.panels import PanelMesh
-    from ogilvie.waves.field import Sea
 
 Array = NDArray[np.float64]
 
@@ -24,9 +23,9 @@ _MOVED = 1.03  # of a frequency that is met too slowly from somewhere
 
 
 def added_resistance(
-    case: Case, hull: "PanelMesh", body: "RigidBody", sea: "Sea", *, omega: Array, wave_direction: Array, **options: Any
+    case: Case, hull: "PanelMesh", body: "RigidBody", *, omega: Array, wave_direction: Array, **options: Any
 ) -> "xr.Dataset":
-    """Return the mean drift at the vessel's speed over the frequencies of the sea.
+    """Return the mean drift at the vessel's speed from the first to the last of these frequencies.
 
     Waves that are met at frequencies which the panels do not resolve are left to :func:`ogilvie.short_wave_drift`, which is
     also a floor in waves shorter than the ship (:func:`ogilvie.joined_drift`); the panel method has them all where it ends in

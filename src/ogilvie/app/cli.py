@@ -22,6 +22,11 @@ app = typer.Typer(
 
 CaseFile = Annotated[Path, typer.Argument(metavar="CASE.toml", help="The case.")]
 Folder = Annotated[Path | None, typer.Option("--output", "-o", metavar="FOLDER", help="Where the results go.")]
+Draught = Annotated[float | None, typer.Option("--draught", metavar="M", help="Mesh: clip at this draught, m.")]
+Unit = Annotated[float | None, typer.Option("--unit", metavar="M", help="Mesh: length of its unit, m; 0.001 for mm.")]
+Planes = Annotated[
+    str | None, typer.Option("--symmetry", help="Mesh: planes whose other side it leaves out; none, xz or xz+yz.")
+]
 
 
 def _version(wanted: bool) -> None:
@@ -112,15 +117,11 @@ def hydro(
     directions: Annotated[
         str, typer.Option("--directions", metavar="D,D,...", help="Mesh: where waves travel to, deg; 180 is head sea.")
     ] = "180",
-    draught: Annotated[float | None, typer.Option("--draught", metavar="M", help="Mesh: clip at this draught, m.")] = None,
+    draught: Draught = None,
     depth: Annotated[float, typer.Option("--depth", metavar="M", help="Mesh: water depth, m.")] = float("inf"),
     speed_knots: Annotated[float, typer.Option("--speed-knots", metavar="KN", help="Mesh: forward speed.")] = 0.0,
-    unit: Annotated[
-        float | None, typer.Option("--unit", metavar="M", help="Mesh: length of its unit, m; 0.001 for mm.")
-    ] = None,
-    symmetry: Annotated[
-        str | None, typer.Option("--symmetry", help="Mesh: planes whose other side it leaves out; none, xz or xz+yz.")
-    ] = None,
+    unit: Unit = None,
+    symmetry: Planes = None,
 ) -> None:
     """Solve a hull for its coefficients, or convert a file.
 
@@ -137,13 +138,9 @@ def hydro(
 @guarded
 def check(
     source: Annotated[Path, typer.Argument(metavar="FILE", help="A mesh, coefficients, or a CASE.toml.")],
-    draught: Annotated[float | None, typer.Option("--draught", metavar="M", help="Mesh: clip at this draught, m.")] = None,
-    unit: Annotated[
-        float | None, typer.Option("--unit", metavar="M", help="Mesh: length of its unit, m; 0.001 for mm.")
-    ] = None,
-    symmetry: Annotated[
-        str | None, typer.Option("--symmetry", help="Mesh: planes whose other side it leaves out; none, xz or xz+yz.")
-    ] = None,
+    draught: Draught = None,
+    unit: Unit = None,
+    symmetry: Planes = None,
 ) -> None:
     """Look critically at a mesh, at coefficients or a case.
 

@@ -80,7 +80,11 @@ def fitted_panels(hull: PanelMesh, *, size: float, q: int, chine: bool = True) -
     (True, 52)
     """
     flat = flattened(hull, chine=chine)
-    sheet = fitted(flat)
+    return divided(fitted(flat), flat.vertices, size=size, q=q)
+
+
+def divided(sheet: Sheet, vertices: Array, *, size: float, q: int) -> FittedHull:
+    """Return the panels of a sheet, and how far vertices (n, 3) are from them; see :func:`fitted_panels`."""
     u, v = (places(t, q) for t in _divisions(sheet, size))
     grid = sheet.at(u.ravel(), v.ravel()).reshape(len(u), q, len(v), q, 3)
     panels = grid.transpose(0, 2, 1, 3, 4).reshape(-1, q, q, 3)
@@ -88,12 +92,12 @@ def fitted_panels(hull: PanelMesh, *, size: float, q: int, chine: bool = True) -
         panels = np.concatenate([panels, turned(_fan(panels[: len(v), 0], size))])
     if sheet.flat_ends[1]:
         panels = np.concatenate([panels, _fan(panels[(len(u) - 1) * len(v) : len(u) * len(v), -1], size)])
-    off = distances(flat.vertices, panels)
+    off = distances(vertices, panels)
     g, w = np.polynomial.legendre.leggauss(q + 2)
     x, normal = positions_and_normals(panels, g, g)
     volume = -2.0 * float(np.einsum("a,b,nab,nab->", w, w, x[..., 2], normal[..., 2]))
     return FittedHull(
-        panels, float(np.sqrt(np.mean(off**2))), float(off.max()), float(jacobians(normal).min()), volume, flat.chine > 0.0
+        panels, float(np.sqrt(np.mean(off**2))), float(off.max()), float(jacobians(normal).min()), volume, sheet.chine > 0.0
     )
 
 

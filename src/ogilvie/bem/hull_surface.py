@@ -5,10 +5,12 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ogilvie.bem.fitted_hull import FittedHull, fitted_panels
+from ogilvie.bem.fitted_hull import FittedHull, divided
 from ogilvie.bem.flat_hull import flat_panels, require_closed
 from ogilvie.bem.hull_patches import hull_panels
 from ogilvie.errors import InputError
+from ogilvie.mesh.fitting import fitted
+from ogilvie.mesh.flattening import flattened
 from ogilvie.mesh.panels import PanelMesh
 from ogilvie.mesh.smooth import SmoothSurface, SurfaceCorners
 
@@ -83,8 +85,10 @@ def _best_fit(hull: PanelMesh, size: float, q: int) -> FittedHull:
     """Return the first good fit with panels of about that size, a chine kept or rounded off; else that of the size itself."""
     fits, corners = [], _on_surface(hull)
     for chine in (True, False):
+        flat = flattened(corners, chine=chine)
+        sheet = fitted(flat)
         for factor in _SIZES:
-            fits.append(fitted_panels(corners, size=factor * size, q=q, chine=chine))
+            fits.append(divided(sheet, flat.vertices, size=factor * size, q=q))
             if _is_good(fits[-1], hull):
                 return fits[-1]
         if not fits[0].chine:

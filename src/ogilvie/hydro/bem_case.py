@@ -1,6 +1,5 @@
 """What is asked of the panel method, checked: hull and lid, frequencies, directions, water, speed."""
 
-import os
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ogilvie.errors import InputError, OgilvieWarning
 from ogilvie.hydro.bem_panels import HullPanels
+from ogilvie.hydro.threads import machine_memory
 from ogilvie.mesh.inspect import require_usable
 from ogilvie.mesh.lid import waterplane_lid
 from ogilvie.mesh.panels import PanelMesh
@@ -243,10 +243,7 @@ def _refuse_too_large(case: Case) -> None:
     """Compare the size of the influence matrices with the memory of this machine, where the system tells it."""
     n, copies = case.panels.n_hull + case.panels.n_lid, len(case.panels.images)
     needed = 16.0 * n**2 * 2.0 * (copies + 1)
-    try:
-        memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    except (AttributeError, ValueError, OSError):
-        return
+    memory = machine_memory()
     if needed > memory:
         raise InputError(
             f"solve_bem: a mesh that fits into {memory / 1e9:.3g} GB of memory expected, {n} stored panels found, which need "

@@ -1,7 +1,6 @@
 """Mean drift forces from the panel solution, by three methods side by side."""
 
 import warnings
-from typing import get_args
 
 import numpy as np
 import xarray as xr
@@ -10,11 +9,10 @@ from numpy.typing import ArrayLike
 from ogilvie.body import RigidBody
 from ogilvie.errors import InputError, OgilvieWarning
 from ogilvie.hydro.bem_case import Irregular
-from ogilvie.hydro.drift_inputs import Moments, WaterlineRule, checked_case, checked_dynamics
+from ogilvie.hydro.drift_inputs import Moments, WaterlineRule, checked_case, checked_dynamics, checked_workers, require_words
 from ogilvie.hydro.drift_result import Method, as_dataset
 from ogilvie.hydro.drift_run import Options, drifts
 from ogilvie.hydro.drift_static import Rotation
-from ogilvie.hydro.threads import available_cores
 from ogilvie.mesh.panels import PanelMesh
 from ogilvie.units import GRAVITY, SEA_WATER
 
@@ -153,14 +151,13 @@ def mean_drift(
         depth=water_depth,
         speed=speed,
     )
-    for name, value, allowed in (
-        ("method", method, Method),
-        ("rotation", rotation, Rotation),
-        ("moments", moments, Moments),
-        ("waterline", waterline, WaterlineRule),
-    ):
-        if value not in get_args(allowed):
-            raise InputError(f"mean_drift: {name}: one of {', '.join(get_args(allowed))} expected, {value!r} found.")
+    require_words(
+        "mean_drift",
+        method=(method, Method),
+        rotation=(rotation, Rotation),
+        moments=(moments, Moments),
+        waterline=(waterline, WaterlineRule),
+    )
     if speed != 0.0 and pairs:
         raise InputError(
             "mean_drift: pairs: False expected at speed, where waves of two directions are met at two frequencies."
@@ -174,14 +171,12 @@ def mean_drift(
             f"mean_drift: method: deep water expected for the far field at speed, {water_depth:.4g} m found. "
             "Take 'control_surface' or 'near'."
         )
-    if workers is not None and (isinstance(workers, bool) or not isinstance(workers, int) or workers < 1):
-        raise InputError(f"mean_drift: workers: a number of threads >= 1 or None expected, {workers!r} found.")
     options = Options(
         rotation=rotation,
         centre=waterline == "centre",
         control=method in ("auto", "control_surface"),
         cache=cache,
-        workers=workers or available_cores(),
+        workers=checked_workers(workers, purpose="mean_drift"),
         progress=progress,
     )
     found = drifts(case, checked_dynamics(case, body, damping, stiffness, purpose="mean_drift"), options)

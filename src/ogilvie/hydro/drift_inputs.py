@@ -1,7 +1,7 @@
 """What is asked of the second-order forces, checked: hull and water, and the body that moves."""
 
 import warnings
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -10,6 +10,7 @@ from ogilvie.body import RigidBody
 from ogilvie.errors import InputError, OgilvieWarning
 from ogilvie.hydro.bem_case import Case, Irregular, make_case, warn_if_coarse
 from ogilvie.hydro.drift_wave import Dynamics
+from ogilvie.hydro.threads import available_cores
 from ogilvie.mesh.hydrostatics import hydrostatics
 from ogilvie.mesh.panels import PanelMesh
 
@@ -76,6 +77,20 @@ def checked_case(
     for warning in caught:
         warnings.warn(str(warning.message).replace("solve_bem", purpose), OgilvieWarning, stacklevel=3)
     return case
+
+
+def require_words(purpose: str, **given: tuple[object, object]) -> None:
+    """Raise InputError where a setting (value, Literal of what is allowed) is another word."""
+    for name, (value, allowed) in given.items():
+        if value not in get_args(allowed):
+            raise InputError(f"{purpose}: {name}: one of {', '.join(get_args(allowed))} expected, {value!r} found.")
+
+
+def checked_workers(workers: int | None, *, purpose: str) -> int:
+    """Return a number of threads, by default that of the cores."""
+    if workers is not None and (isinstance(workers, bool) or not isinstance(workers, int) or workers < 1):
+        raise InputError(f"{purpose}: workers: a number of threads >= 1 or None expected, {workers!r} found.")
+    return workers or available_cores()
 
 
 def checked_dynamics(

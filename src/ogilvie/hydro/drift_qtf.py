@@ -1,7 +1,6 @@
 """Forces at the difference of two frequencies from the panel solution: the full quadratic transfer function."""
 
 import warnings
-from typing import get_args
 
 import numpy as np
 import xarray as xr
@@ -10,12 +9,11 @@ from numpy.typing import ArrayLike
 from ogilvie.body import RigidBody
 from ogilvie.errors import InputError, OgilvieWarning
 from ogilvie.hydro.bem_case import Case, Irregular
-from ogilvie.hydro.drift_inputs import Moments, WaterlineRule, checked_case, checked_dynamics
+from ogilvie.hydro.drift_inputs import Moments, WaterlineRule, checked_case, checked_dynamics, checked_workers, require_words
 from ogilvie.hydro.drift_pairs import Choice, QtfMethod, Quadratic, SecondOrder, quadratic_forces
 from ogilvie.hydro.drift_static import Rotation
 from ogilvie.hydro.qtf import with_qtf
 from ogilvie.hydro.schema import DOFS, hydro_from_arrays
-from ogilvie.hydro.threads import available_cores
 from ogilvie.mesh.panels import PanelMesh
 from ogilvie.units import GRAVITY, SEA_WATER
 
@@ -127,15 +125,14 @@ def difference_qtf(
         g=g,
         depth=water_depth,
     )
-    for name, value, allowed in (
-        ("second_order", second_order, SecondOrder),
-        ("method", method, QtfMethod),
-        ("rotation", rotation, Rotation),
-        ("moments", moments, Moments),
-        ("waterline", waterline, WaterlineRule),
-    ):
-        if value not in get_args(allowed):
-            raise InputError(f"difference_qtf: {name}: one of {', '.join(get_args(allowed))} expected, {value!r} found.")
+    require_words(
+        "difference_qtf",
+        second_order=(second_order, SecondOrder),
+        method=(method, QtfMethod),
+        rotation=(rotation, Rotation),
+        moments=(moments, Moments),
+        waterline=(waterline, WaterlineRule),
+    )
     if len(case.omega) < 2:
         raise InputError(
             "difference_qtf: omega: two frequencies or more expected, one found. For one frequency use mean_drift."
@@ -144,11 +141,10 @@ def difference_qtf(
         raise InputError(
             "difference_qtf: pairs: second_order='none' expected, 'pinkster' found: it holds for waves of one direction."
         )
-    if workers is not None and (isinstance(workers, bool) or not isinstance(workers, int) or workers < 1):
-        raise InputError(f"difference_qtf: workers: a number of threads >= 1 or None expected, {workers!r} found.")
+    threads = checked_workers(workers, purpose="difference_qtf")
     choice = Choice(rotation, waterline == "centre", method, second_order, moments == "body", pairs)
     dynamics = checked_dynamics(case, body, damping, stiffness, purpose="difference_qtf")
-    found = quadratic_forces(case, dynamics, choice, cache=cache, workers=workers or available_cores(), progress=progress)
+    found = quadratic_forces(case, dynamics, choice, cache=cache, workers=threads, progress=progress)
     result = _as_dataset(found, case).assign_attrs(
         moments=moments,
         rotation=rotation,

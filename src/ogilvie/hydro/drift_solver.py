@@ -1,6 +1,5 @@
 """Solves the first order of one hull, frequency by frequency, and keeps the fields on disk."""
 
-import os
 from functools import partial
 
 import numpy as np
@@ -23,6 +22,7 @@ from ogilvie.hydro.drift_solve import Corrections, Fields, fields_at, flux_corre
 from ogilvie.hydro.drift_store import FieldStore, joined, split
 from ogilvie.hydro.drift_surface import ControlSurface
 from ogilvie.hydro.drift_wave import Dynamics, Wave
+from ogilvie.hydro.threads import machine_memory
 
 Complex = NDArray[np.complex128]
 
@@ -130,10 +130,7 @@ class Solver:
 def _refuse_too_large(case: Case) -> None:
     n, copies = case.panels.n_hull + case.panels.n_lid, len(case.panels.images)
     needed = 16.0 * n**2 * (4.0 * (copies + 1) + 2.0)
-    try:
-        memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    except (AttributeError, ValueError, OSError):
-        return
+    memory = machine_memory()
     if needed > memory:
         raise InputError(
             f"second-order forces: a mesh that fits into {memory / 1e9:.3g} GB of memory expected, {n} stored panels found, "

@@ -1,4 +1,4 @@
-"""How many threads the libraries below use.
+"""How many threads the libraries below use, and what memory there is.
 
 Capytaine's integrals and the linear algebra of numpy and scipy each start as many threads as there are cores. The integrals
 gain by it; on small matrices the threads of the linear algebra only wait for each other (four times the work, measured).
@@ -38,6 +38,20 @@ def available_cores() -> int:
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
+
+
+def machine_memory() -> float:
+    """Return the memory of this machine, bytes; inf where the system does not tell it.
+
+    Examples
+    --------
+    >>> machine_memory() > 0
+    True
+    """
+    try:
+        return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
+    except (AttributeError, ValueError, OSError):
+        return float("inf")
 
 
 @contextmanager

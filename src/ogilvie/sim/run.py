@@ -1,6 +1,5 @@
 """A simulation in progress: all realisations advance block by block, in parallel."""
 
-import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -14,6 +13,7 @@ from numpy.typing import NDArray
 from ogilvie.errors import ConvergenceError, InputError
 from ogilvie.hydro.progress import tracked
 from ogilvie.hydro.schema import DOFS
+from ogilvie.hydro.threads import machine_memory
 from ogilvie.sim.engine import Engine, Initial, first_step
 from ogilvie.sim.forces import LoadForce
 from ogilvie.sim.large import LargeMotions
@@ -171,10 +171,7 @@ class Run:
 def check_memory(rows: int, columns: int) -> None:
     """Refuse a result that does not fit in the machine's memory."""
     need = 8 * rows * columns
-    try:
-        have = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    except (AttributeError, ValueError, OSError):
-        return
+    have = machine_memory()
     if need > have:
         raise InputError(
             f"simulate: the result would take {need / 1e9:.3g} GB, this machine has {have / 1e9:.3g} GB. Give a longer "
