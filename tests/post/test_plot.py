@@ -211,6 +211,10 @@ def test_drift_is_drawn_in_round_units_where_it_is_known(hydro):
     unknown = data.assign(mean_drift=data.mean_drift.where(data.influenced_dof != "surge"))
     with pytest.raises(InputError, match="surge found"):
         plot.drift(unknown, dofs=["surge"])
+    vertical = data.assign(mean_drift=data.mean_drift.where(data.influenced_dof == "heave"))
+    assert [ax.get_title(loc="left") for ax in plot.drift(vertical).axes] == ["heave"]
+    with pytest.raises(InputError, match="a component known"):
+        plot.drift(data.assign(mean_drift=np.nan * data.mean_drift))
 
 
 def test_excitation_needs_forces(hydro):

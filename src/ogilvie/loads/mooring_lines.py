@@ -24,15 +24,22 @@ KINDS = {SLACK: "slack", GROUNDED: "grounded", SUSPENDED: "suspended"}
 _ROW = 11  # numbers of a line, see MooringLine.row
 
 
+@compiled
+def _span(p, place, R):
+    """Return where the anchor of a line p (11,) is from its fairlead, dx and dy, and the fairlead's height over it."""
+    a, b, c = p[3], p[4], p[5]
+    dx = p[0] - place[0] - R[0] * a - R[1] * b - R[2] * c
+    dy = p[1] - place[1] - R[3] * a - R[4] * b - R[5] * c
+    return dx, dy, place[2] + R[6] * a + R[7] * b + R[8] * c - p[2]
+
+
 @load_kernel
 def _lines_kernel(x, data, own, force):
     for i in range(data.size // _ROW):
         p = data[i * _ROW : (i + 1) * _ROW]
         R = x[ROTATION : ROTATION + 9]
         a, b, c = p[3], p[4], p[5]
-        dx = p[0] - x[ETA] - R[0] * a - R[1] * b - R[2] * c
-        dy = p[1] - x[ETA + 1] - R[3] * a - R[4] * b - R[5] * c
-        h = x[ETA + 2] + R[6] * a + R[7] * b + R[8] * c - p[2]
+        dx, dy, h = _span(p, x[ETA : ETA + 3], R)
         l = np.hypot(dx, dy)
         H, V, _ = solve_line(l, h, p[6], p[7], p[8], p[9], p[10])
         pull = H / l if l > 0.0 else 0.0 * H
@@ -49,20 +56,12 @@ def _lines_kernel(x, data, own, force):
 
 
 @compiled
-def _all_tensions(poses, rows, out):
+def _all_tensions(poses, rotations, rows, out):
     for k in range(poses.shape[0]):
-        eta = poses[k]
-        cr, sr = np.cos(eta[3]), np.sin(eta[3])
-        ct, st = np.cos(eta[4]), np.sin(eta[4])
-        cp, sp = np.cos(eta[5]), np.sin(eta[5])
         for i in range(rows.shape[0]):
             p = rows[i]
-            a, b, c = p[3], p[4], p[5]
-            forward, up = ct * a + st * (sr * b + cr * c), -st * a + ct * (sr * b + cr * c)
-            port = cr * b - sr * c
-            dx = p[0] - eta[0] - cp * forward + sp * port
-            dy = p[1] - eta[1] - sp * forward - cp * port
-            H, V, kind = solve_line(np.hypot(dx, dy), eta[2] + up - p[2], p[6], p[7], p[8], p[9], p[10])
+            dx, dy, h = _span(p, poses[k], rotations[k])
+            H, V, kind = solve_line(np.hypot(dx, dy), h, p[6], p[7], p[8], p[9], p[10])
             out[k, i, 0] = np.hypot(H, V) if kind != FAILED else np.nan
             out[k, i, 1] = anchor_tension(H, V, p[6], p[7], p[9], kind) if kind != FAILED else np.nan
 
@@ -140,8 +139,10 @@ class CatenaryMooring:
             poses = np.ascontiguousarray(eta, dtype=float)
             if poses.shape[-1] != 6:
                 raise InputError(f"CatenaryMooring: tensions: poses (..., 6) expected, shape {poses.shape} found.")
-            out = np.empty((poses.size // 6, len(self.lines), 2))
-            _all_tensions(poses.reshape(-1, 6), np.stack([line.row for line in self.lines]), out)
+            one_by_one = poses.reshape(-1, 6)
+            rotations = np.array([rotation_matrix(*pose[3:]).ravel() for pose in one_by_one]).reshape(-1, 9)
+            out = np.empty((len(one_by_one), len(self.lines), 2))
+            _all_tensions(one_by_one, rotations, np.stack([line.row for line in self.lines]), out)
             return out.reshape(*poses.shape[:-1], len(self.lines), 2)
         solved = self._solved(_pose(eta))
         anchors = [

@@ -7,12 +7,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ogilvie.errors import InputError
-from ogilvie.post.plot._style import FAINT, choose, is_rotation, new_figure, power, shades, styled
+from ogilvie.post.plot._style import (
+    FAINT,
+    choose,
+    is_rotation,
+    legend_of_directions,
+    new_figure,
+    power,
+    shades,
+    some_of,
+    styled,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
-
-_MOST = 7  # directions in one figure
 
 
 @styled
@@ -24,7 +32,7 @@ def drift(data: "xr.Dataset", *, dofs: Sequence[str] | None = None, save: str | 
     data : xarray.Dataset
         With mean_drift; at forward speed the surge force, its sign changed, is the added resistance.
     dofs : sequence of str, optional
-        By default surge, sway and yaw.
+        By default surge, sway and yaw, as far as they are known, or else what is.
     save : str or Path, optional
 
     Returns
@@ -34,9 +42,11 @@ def drift(data: "xr.Dataset", *, dofs: Sequence[str] | None = None, save: str | 
     if "mean_drift" not in data:
         raise InputError("plot.drift: data with mean_drift expected, none found; compute it with mean_drift.")
     known = [str(d) for d in data.influenced_dof.values if np.isfinite(data.mean_drift.sel(influenced_dof=d)).all()]
-    chosen = choose(known, dofs or [d for d in ("surge", "sway", "yaw") if d in known], "plot.drift")
+    if not known:
+        raise InputError("plot.drift: a component known at all frequencies expected, none found.")
+    chosen = choose(known, dofs or [d for d in ("surge", "sway", "yaw") if d in known] or known, "plot.drift")
     directions = np.degrees(data.wave_direction.values)
-    picked = np.arange(0, len(directions), max(1, -(-(len(directions) - 1) // (_MOST - 1))))
+    picked = some_of(len(directions))
     fig = new_figure(2.7)
     colours = shades(len(picked))
     for ax, dof in zip(np.atleast_1d(fig.subplots(1, len(chosen))), chosen, strict=True):
@@ -48,9 +58,5 @@ def drift(data: "xr.Dataset", *, dofs: Sequence[str] | None = None, save: str | 
         ax.set_title(dof)
         ax.set_xlabel("\u03c9 [rad/s]")
         ax.set_ylabel(f"[{prefix}{'N m' if is_rotation(dof) else 'N'}/m\u00b2]")
-    handles, labels = fig.axes[0].get_legend_handles_labels()
-    some = f" ({len(picked)} of {len(directions)} directions)" if len(picked) < len(directions) else ""
-    fig.legend(
-        handles, labels, loc="outside upper right", ncols=len(picked), title=f"waves travel towards{some}", title_fontsize=7.5
-    )
+    legend_of_directions(fig, fig.axes[0], len(picked), len(directions))
     return fig

@@ -227,6 +227,19 @@ def shades(count: int) -> list[Any]:
     return list(mpl.colormaps["viridis"](np.linspace(0.0, 0.88, count)))
 
 
+def some_of(count: int, most: int = 7) -> NDArray[np.int64]:
+    """Return the places of at most so many of a number of directions, evenly, from the first on."""
+    return np.arange(0, count, max(1, -(-(count - 1) // (most - 1))))
+
+
+def legend_of_directions(fig: Any, ax: Any, shown: int, count: int) -> None:
+    """Put the directions of the waves, which one of the axes names, above a figure; told when not all are drawn."""
+    handles, labels = ax.get_legend_handles_labels()
+    some = f" ({shown} of {count} directions)" if shown < count else ""
+    title = f"waves travel towards{some}"
+    fig.legend(handles, labels, loc="outside upper right", ncols=shown, title=title, title_fontsize=7.5)
+
+
 def choose(names: Sequence[str], wanted: Sequence[str] | None, what: str) -> list[str]:
     """Return the wanted names, all by default; unknown ones are an error."""
     names = [str(n) for n in names]

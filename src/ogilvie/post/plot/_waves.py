@@ -7,7 +7,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ogilvie.errors import InputError
-from ogilvie.post.plot._style import BLUE, GREY, INK, choose, is_rotation, new_figure, power, shades, styled
+from ogilvie.post.plot._style import (
+    BLUE,
+    GREY,
+    INK,
+    choose,
+    is_rotation,
+    legend_of_directions,
+    new_figure,
+    power,
+    shades,
+    some_of,
+    styled,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -155,7 +167,7 @@ def _amplitude_phase(X: "xr.DataArray", dofs: Sequence[str] | None, compare: "xr
     names = choose([str(d) for d in X.dof.values], dofs, "dofs")
     X = X.sel(dof=names).transpose("omega", "wave_direction", "dof")
     directions = np.degrees(X.wave_direction.values)
-    picked = np.arange(0, len(directions), max(1, -(-(len(directions) - 1) // 6)))  # at most 7
+    picked = some_of(len(directions))
     end = _last_of_interest(X.omega.values, np.abs(X.values))
     columns = min(3, len(names))
     rows = -(-len(names) // columns)
@@ -185,10 +197,7 @@ def _amplitude_phase(X: "xr.DataArray", dofs: Sequence[str] | None, compare: "xr
     for ax in axes.ravel()[len(names) :]:
         if not ax.has_data():
             ax.remove()
-    handles, labels = axes[0, 0].get_legend_handles_labels()
-    some = f" ({len(picked)} of {len(directions)} directions)" if len(picked) < len(directions) else ""
-    title = f"waves travel towards{some}"
-    fig.legend(handles, labels, loc="outside upper right", ncols=len(picked), title=title, title_fontsize=7.5)
+    legend_of_directions(fig, axes[0, 0], len(picked), len(directions))
     return fig
 
 
